@@ -61,7 +61,7 @@ inline int32_t distance_at(const Reach& reach, const LegalPlaces& places, int32_
 #if defined(MICROTIN_PAIRS)
 
 // The distances of two places of a column.
-struct Distances {
+struct ColumnDistances {
   int32_t low, high;
 };
 
@@ -71,8 +71,8 @@ struct Distances {
 #if defined(__SSE2__)
 
 // Squares are shifted before they are compared: so they, too, may saturate to 16 bits.
-inline Distances distances_at(const Reach& reach, const LegalPlaces&, int32_t x, int32_t low,
-                              int32_t high) {
+inline ColumnDistances distances_at(const Reach& reach, const LegalPlaces&, int32_t x, int32_t low,
+                                    int32_t high) {
   const __m128i y = _mm_unpacklo_epi32(_mm_cvtsi32_si128(low), _mm_cvtsi32_si128(high));
   const __m128i xx = _mm_shufflelo_epi16(_mm_cvtsi32_si128(x), 0);
   const __m128i both = _mm_unpacklo_epi16(xx, _mm_packs_epi32(y, y));
@@ -85,8 +85,8 @@ inline Distances distances_at(const Reach& reach, const LegalPlaces&, int32_t x,
   const __m128i least = _mm_min_epi16(squares, _mm_shuffle_epi32(squares, 0x4E));
   const __m128i nearest = _mm_min_epi16(least, _mm_shuffle_epi32(least, 0xB1));
   const __m128i parts = _mm_min_epi16(nearest, _mm_cvtsi32_si128(reach.shifted));
-  return Distances{part_of(reach, _mm_extract_epi16(parts, 0)),
-                   part_of(reach, _mm_extract_epi16(parts, 1))};
+  return ColumnDistances{part_of(reach, _mm_extract_epi16(parts, 0)),
+                         part_of(reach, _mm_extract_epi16(parts, 1))};
 }
 
 #else
@@ -110,12 +110,12 @@ inline int32_t distance_of(const Reach& reach, int16x2_t c, int16x2_t a, int16x2
   return part_of(reach, least >> reach.shift);
 }
 
-inline Distances distances_at(const Reach& reach, const LegalPlaces& places, int32_t x, int32_t low,
-                              int32_t high) {
+inline ColumnDistances distances_at(const Reach& reach, const LegalPlaces& places, int32_t x,
+                                    int32_t low, int32_t high) {
   const Spot* const corner = places.corner;
   const int16x2_t c = pair_of(corner[0].x, corner[0].y), a = pair_of(corner[1].x, corner[1].y);
-  return Distances{distance_of(reach, c, a, pair_of(x, low)),
-                   distance_of(reach, c, a, pair_of(x, high))};
+  return ColumnDistances{distance_of(reach, c, a, pair_of(x, low)),
+                         distance_of(reach, c, a, pair_of(x, high))};
 }
 
 #endif
@@ -225,7 +225,7 @@ inline Halves weights_at(const PlaceOdds& odds, const LegalPlaces& places, const
                          int32_t low, int32_t high) {
   int32_t first = chance_at(odds, column, low), second = chance_at(odds, column, high);
   if (odds.repels) {
-    const Distances distance = distances_at(odds.reach, places, column.x, low, high);
+    const ColumnDistances distance = distances_at(odds.reach, places, column.x, low, high);
     first = first * (distance.low + 4) >> 8;
     second = second * (distance.high + 4) >> 8;
   }

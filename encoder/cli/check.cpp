@@ -12,7 +12,7 @@ namespace {
 
 // "[1, 2]"
 template <class Items, class Text>
-std::string list_of(const Items& items, const Text& text) {
+std::string json_list(const Items& items, const Text& text) {
   std::string list;
   for (const auto& item : items) {
     list += list.empty() ? "" : ", ";
@@ -31,7 +31,7 @@ std::string tiles_of(const std::vector<TileFault>& faults, bool unsupported) {
   for (const TileFault& fault : faults) {
     if (fault.is_unsupported == unsupported) tiles.push_back(fault.tile);
   }
-  return list_of(tiles, [](uint32_t tile) { return json(tile); });
+  return json_list(tiles, [](uint32_t tile) { return json(tile); });
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ void run_check(const std::string& input, bool as_json) {
     report.emplace_back("unsupported", tiles_of(found.faults, true));
     report.emplace_back("bad", tiles_of(found.faults, false));
     const auto text = [](const TileFault& fault) { return json(fault.text); };
-    report.emplace_back("faults", list_of(found.faults, text));
+    report.emplace_back("faults", json_list(found.faults, text));
   }
   const bool told = tell(text_of(report, as_json));
   if (!found.faults.empty()) {
@@ -56,11 +56,11 @@ void run_check(const std::string& input, bool as_json) {
 
 void run_diff(const std::string& first, const std::string& second, bool as_json) {
   const Difference found = compare_packs(first, second);
-  const bool told =
-      tell(text_of({{"tiles", json(found.tiles)},
-                    {"header", json(found.is_header_same ? "same" : "different")},
-                    {"different", list_of(found.differ, [](uint32_t tile) { return json(tile); })}},
-                   as_json));
+  const bool told = tell(
+      text_of({{"tiles", json(found.tiles)},
+               {"header", json(found.is_header_same ? "same" : "different")},
+               {"different", json_list(found.differ, [](uint32_t tile) { return json(tile); })}},
+              as_json));
   if (!found.differ.empty()) {
     throw Error(second + ": " + of_tiles(found.differ.size(), found.tiles) +
                 " differ from those of " + first);

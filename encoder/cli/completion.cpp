@@ -11,20 +11,6 @@ std::string joined(const std::vector<std::string>& parts, const char* separator)
   return text;
 }
 
-std::vector<std::string> names_of_commands(const CommandText& program) {
-  std::vector<std::string> names;
-  for (const CommandText& command : program.commands) names.push_back(command.name);
-  return names;
-}
-
-std::vector<std::string> names_of_options(const CommandText& command) {
-  std::vector<std::string> names;
-  for (const OptionText& option : command.options) {
-    names.insert(names.end(), option.names.begin(), option.names.end());
-  }
-  return names;
-}
-
 // --- bash ---
 
 // The names of options whose value is not a file, behind which nothing can be proposed.

@@ -37,7 +37,7 @@ std::string fixed(double value) {
   return text;
 }
 
-std::string text_of(const AutopilotFile& file, uint32_t spacing) {
+std::string autopilot_report(const AutopilotFile& file, uint32_t spacing) {
   std::string text = std::to_string(file.blocks) + " blocks of 28 x 32 posts, " +
                      std::to_string(spacing) + " m apart; " + std::to_string(file.empty) +
                      " without terrain are zeros\n";
@@ -74,7 +74,7 @@ void decode_for_autopilot(const DecodeRequest& request, Autopilot autopilot) {
   });
   OutputFile out(request.output);
   out.write(file.bytes);
-  deliver(out, request.output, text_of(file, spacing));
+  deliver(out, request.output, autopilot_report(file, spacing));
   if (file.missed != 0) {
     const double percent =
         100.0 * static_cast<double>(file.missed) / static_cast<double>(file.asked);

@@ -74,6 +74,20 @@ CommandText describe(const CLI::App& app) {
   return text;
 }
 
+std::vector<std::string> names_of_options(const CommandText& command) {
+  std::vector<std::string> names;
+  for (const OptionText& option : command.options) {
+    names.insert(names.end(), option.names.begin(), option.names.end());
+  }
+  return names;
+}
+
+std::vector<std::string> names_of_commands(const CommandText& program) {
+  std::vector<std::string> names;
+  for (const CommandText& command : program.commands) names.push_back(command.name);
+  return names;
+}
+
 std::string synopsis(const CommandText& command) {
   std::string text = "microtin " + command.name;
   for (const OptionText& argument : command.arguments) text += ' ' + argument.usage;

@@ -44,6 +44,9 @@ struct CommandText {
 // In the order of the definitions, without hidden commands.
 CommandText describe(const CLI::App& app);
 
+std::vector<std::string> names_of_options(const CommandText& command);
+std::vector<std::string> names_of_commands(const CommandText& program);
+
 // "microtin encode TERRAIN... -o FILE [OPTIONS]", for a command.
 std::string synopsis(const CommandText& command);
 

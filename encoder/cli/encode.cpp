@@ -117,8 +117,8 @@ std::string source_of(const Source& source, const Verification& measured) {
   return source_of_posts(measured.posts, measured.voids, raster.mended, raster.selection);
 }
 
-std::string text_of(const Source& source, const EncodedStream& encoded,
-                    const EncodeRequest& request) {
+std::string stream_report(const Source& source, const EncodedStream& encoded,
+                          const EncodeRequest& request) {
   const Laid& laid = encoded.laid;
   const bool posts = std::holds_alternative<Raster>(source);
   const Verification& measured = encoded.verification;
@@ -142,7 +142,7 @@ std::string text_of(const Source& source, const EncodedStream& encoded,
   return text.str();
 }
 
-std::string text_of(const PackReport& pack) {
+std::string pack_report(const PackReport& pack) {
   std::ostringstream text;
   text.exceptions(std::ios::badbit);  // else a text for which memory is short ends early, unsaid
   text << "step of z: " << to_string(pack.z_step) << "\npack: " << tile_columns(pack.grid) << " x "
@@ -207,7 +207,7 @@ std::string encode_raster(const RasterReader& raster, const EncodeRequest& reque
   write_pack(pack, streams, out);
   const Raster& frame = raster.frame();
   return source_of_posts(scanned.posts, scanned.voids, scanned.mended, frame.selection) +
-         text_of(report_of(pack)) + settings(report_of(pack), request.adapter) +
+         pack_report(report_of(pack)) + settings(report_of(pack), request.adapter) +
          units(request, frame.reference);
 }
 
@@ -219,7 +219,7 @@ std::string encode_points(const PointCloud& cloud, const EncodeRequest& request,
   out.write(made.bytes);
   std::string text = source_of_points(made.points, cloud.selection);
   text += "step of x and y: " + to_string(made.xy_step) + moved(made.xy_displacement) + "\n";
-  return text + merged(made.merged, request.lattice.duplicates) + text_of(made.report) +
+  return text + merged(made.merged, request.lattice.duplicates) + pack_report(made.report) +
          settings(made.report, request.adapter) +
          at_true_places(made.true_places, made.report.bound, request) +
          units(request, cloud.reference);
@@ -256,7 +256,7 @@ std::string encode_whole(const EncodeRequest& request, OutputFile& out) {
     return encode_stream(source, request, bar.progress());
   });
   out.write(encoded.stream);
-  return text_of(source, encoded, request) + units(request, reference_of(source));
+  return stream_report(source, encoded, request) + units(request, reference_of(source));
 }
 
 void announce_left_out(const EncodeRequest& request) {
@@ -359,7 +359,7 @@ void run_update(const UpdateRequest& request) {
   deliver(out, request.output,
           "kept: " + std::to_string(updated.kept) + " of " +
               std::to_string(updated.content.tiles.size()) + " tiles\n" +
-              text_of(report_of(updated.content)));
+              pack_report(report_of(updated.content)));
 }
 
 void run_merge(const std::vector<std::string>& shards, const std::string& output) {
@@ -368,12 +368,12 @@ void run_merge(const std::vector<std::string>& shards, const std::string& output
   OutputFile out(output);
   StreamSpool streams(output);
   if (!is_pack(*open_file(shards[0]))) {
-    deliver(out, output, text_of(join_shards(shards, streams, out)));
+    deliver(out, output, pack_report(join_shards(shards, streams, out)));
     return;
   }
   const PackContent pack = join_packs(shards, streams);
   write_pack(pack, streams, out);
-  deliver(out, output, text_of(report_of(pack)));
+  deliver(out, output, pack_report(report_of(pack)));
 }
 
 }  // namespace microtin::cli

@@ -94,20 +94,6 @@ std::string nearest(std::string_view word, const std::vector<std::string>& names
   return found;
 }
 
-std::vector<std::string> names_of_options(const CommandText& command) {
-  std::vector<std::string> names;
-  for (const OptionText& option : command.options) {
-    names.insert(names.end(), option.names.begin(), option.names.end());
-  }
-  return names;
-}
-
-std::vector<std::string> names_of_commands(const CommandText& program) {
-  std::vector<std::string> names;
-  for (const CommandText& command : program.commands) names.push_back(command.name);
-  return names;
-}
-
 std::string remedy(const std::string& meant, const std::string& page) {
   return meant.empty() ? "; see \"" + page + '"' : "; did you mean " + meant + '?';
 }

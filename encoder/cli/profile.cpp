@@ -89,7 +89,7 @@ void add_sight(const Judged& judged, bool as_json, JsonObject& report) {
   report.emplace_back("first_zone_obstruction_at", shown(sight.first_zone_obstruction));
 }
 
-std::string json_of(const ProfilePlace& place) {
+std::string place_json(const ProfilePlace& place) {
   return json(JsonObject{{"distance", shown(place.distance)},
                          {"x", shown(place.x, "null", kPositionDecimals)},
                          {"y", shown(place.y, "null", kPositionDecimals)},
@@ -97,10 +97,10 @@ std::string json_of(const ProfilePlace& place) {
                          {"known_before", place.is_known_before ? "true" : "false"}});
 }
 
-std::string list_of(const std::vector<ProfilePlace>& places) {
+std::string place_list(const std::vector<ProfilePlace>& places) {
   std::string list = "[";
   for (const ProfilePlace& place : places) {
-    list += (list.size() == 1 ? "\n    " : ",\n    ") + json_of(place);
+    list += (list.size() == 1 ? "\n    " : ",\n    ") + place_json(place);
   }
   return list + "\n  ]";
 }
@@ -122,7 +122,7 @@ std::string report_of(const Judged& judged, const ProfileRequest& request, Unit 
   }
   if (judged.sight) add_sight(judged, as_json, report);
   const std::vector<ProfilePlace> places = places_of(profile, request.samples);
-  report.emplace_back("places", as_json ? list_of(places) : std::to_string(places.size()));
+  report.emplace_back("places", as_json ? place_list(places) : std::to_string(places.size()));
   return text_of(report, as_json);
 }
 

@@ -20,7 +20,7 @@ constexpr std::size_t kTries = 24;
 constexpr std::size_t kLargePart = 4;
 
 // How many steps from its triangle an added vertex may be.
-constexpr int kFarthest = 2;
+constexpr int kFarthestMove = 2;
 
 uint16_t even(int coordinate) {
   return static_cast<uint16_t>(coordinate - coordinate % 2);
@@ -144,7 +144,7 @@ std::optional<Decimation::Addition> Decimation::addition_in(const std::array<Ind
   }
   const Point to{even(x / 3), even(y / 3)};
   if (!surface_.posts().find(to)) return std::nullopt;
-  for (int steps = kFarthest; steps > 0; --steps) {
+  for (int steps = kFarthestMove; steps > 0; --steps) {
     const Vertex vertex{to.x, to.y, height(z / 3 + direction() * steps)};
     if (!insert(vertex, Hole{{corners[0], corners[1], corners[2]}, 0})) continue;
     const int64_t gained = gain();

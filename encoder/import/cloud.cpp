@@ -13,14 +13,14 @@
 namespace microtin::importing {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\v\f";
+constexpr std::string_view kBlanksOfLine = " \t\r\v\f";
 
 std::string plain_name(std::string_view field) {
   std::string name = lower_case(std::string(field.substr(0, field.find_first_of("([,;"))));
   const auto is_mark = [](char c) { return c == '"' || c == '/'; };
   name.erase(std::remove_if(name.begin(), name.end(), is_mark), name.end());
-  name.erase(0, std::min(name.find_first_not_of(kBlanks), name.size()));
-  return name.substr(0, name.find_first_of(kBlanks));
+  name.erase(0, std::min(name.find_first_not_of(kBlanksOfLine), name.size()));
+  return name.substr(0, name.find_first_of(kBlanksOfLine));
 }
 
 std::string_view bracketed(std::string_view field) {

@@ -14,7 +14,7 @@
 namespace microtin::importing {
 namespace {
 
-constexpr int kDeepest = 32;  // arrays and objects within each other
+constexpr int kDeepestNesting = 32;  // arrays and objects within each other
 
 // A value of JSON. A number keeps its text.
 struct Value {
@@ -59,7 +59,7 @@ class JsonReader {
   }
 
   Value next(int depth) {
-    if (depth > kDeepest) fail_at(name_, line_, "has too many arrays within each other");
+    if (depth > kDeepestNesting) fail_at(name_, line_, "has too many arrays within each other");
     skip_blanks();
     Value value;
     value.line = line_;

@@ -25,9 +25,9 @@ bool is_text_of_points(const std::string& suffix) {
 bool is_grid_file(const std::string& path) {
   const std::string suffix = suffix_of(path);
   if (!is_text_of_points(suffix) || !is_regular_file(path)) return suffix == ".asc";
-  constexpr uint64_t kLookedAt = 4096;
+  constexpr uint64_t kHeadBytes = 4096;
   const std::unique_ptr<ByteSource> file = open_file(path);
-  const std::vector<uint8_t> head = bytes_at(*file, 0, std::min(kLookedAt, file->size()));
+  const std::vector<uint8_t> head = bytes_at(*file, 0, std::min(kHeadBytes, file->size()));
   return is_grid({reinterpret_cast<const char*>(head.data()), head.size()});
 }
 

@@ -16,7 +16,7 @@
 namespace microtin::importing {
 namespace {
 
-void refine(PointCloud& cloud, int xy_decimals, int z_decimals, const std::string& path) {
+void refine_cloud(PointCloud& cloud, int xy_decimals, int z_decimals, const std::string& path) {
   const int64_t xy = power_of_ten(xy_decimals - cloud.xy_decimals);
   const int64_t z = power_of_ten(z_decimals - cloud.z_decimals);
   if (xy == 1 && z == 1) return;  // as for most files: else time would be quadratic in them
@@ -151,8 +151,8 @@ PointCloud joined(std::vector<NamedSource> parts) {
     expect_same_classes(parts[0], parts[i], whole, part);
     const int xy = std::max(whole.xy_decimals, part.xy_decimals);
     const int z = std::max(whole.z_decimals, part.z_decimals);
-    refine(whole, xy, z, parts[i].path);
-    refine(part, xy, z, parts[i].path);
+    refine_cloud(whole, xy, z, parts[i].path);
+    refine_cloud(part, xy, z, parts[i].path);
     whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
     if (!part.classes) whole.classes.reset();
     add(whole.counts, part.counts);

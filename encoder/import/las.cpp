@@ -23,7 +23,7 @@ constexpr std::array<uint16_t, 5> kHeaderBytes = {227, 227, 227, 235, 375};
 // Bytes of a point of each format, without what a writer adds.
 constexpr std::array<uint16_t, 11> kPointBytes = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 
-struct Header {
+struct LasHeader {
   uint8_t minor_version;
   uint16_t bytes;
   uint8_t point_format;
@@ -44,9 +44,9 @@ void expect_points_behind(const ByteReader& file, uint64_t first_point, uint64_t
             ", before the header and its records end, at " + std::to_string(end));
 }
 
-Header read_header(const ByteReader& file) {
+LasHeader read_header(const ByteReader& file) {
   if (file.size() < 4 || file.bytes(0, 4) != "LASF") file.fail("is not a LAS file");
-  Header header{};
+  LasHeader header{};
   const uint8_t major = file.number<uint8_t>(24);
   header.minor_version = file.number<uint8_t>(25);
   if (major != 1 || header.minor_version > 4) {
@@ -91,7 +91,7 @@ std::string date_of(const ByteReader& file) {
 // Collects what the variable length records say of the coordinates.
 class References {
  public:
-  explicit References(const ByteReader& file, const Header& header) : file_(file) {
+  explicit References(const ByteReader& file, const LasHeader& header) : file_(file) {
     const uint64_t end = read_records(header.bytes, file.number<uint32_t>(100), false);
     expect_points_behind(file, header.first_point, end);
     if (header.minor_version == 4) {
@@ -140,9 +140,9 @@ class References {
   std::vector<double> doubles_;
 };
 
-class PointReader {
+class LasPointReader {
  public:
-  PointReader(const ByteReader& file, const Header& header)
+  LasPointReader(const ByteReader& file, const LasHeader& header)
       : file_(file), header_(header), axes_{scaled(0), scaled(1), scaled(2)} {
     count_classes();
   }
@@ -214,7 +214,7 @@ class PointReader {
   }
 
   const ByteReader& file_;
-  const Header& header_;
+  const LasHeader& header_;
   std::array<ScaledIntegers, 3> axes_;
   ClassCounts counts_;
 };
@@ -230,9 +230,9 @@ uint64_t points_of_las(const ByteReader& file) {
 PointCloud import_las(const std::string& name, const std::string& bytes,
                       const std::optional<ClassSet>& classes) {
   const ByteReader file(name, bytes);
-  const Header header = read_header(file);
+  const LasHeader header = read_header(file);
   const References references(file, header);
-  PointReader reader(file, header);
+  LasPointReader reader(file, header);
   PointCloud cloud = reader.read(classes ? *classes : reader.default_classes());
   cloud.reference = references.take();
   cloud.reference.notes.date = date_of(file);

@@ -37,9 +37,9 @@ std::string_view without_quotes(std::string_view field) {
   return is_quoted ? field.substr(1, field.size() - 2) : field;
 }
 
-class PointReader {
+class TextPointReader {
  public:
-  explicit PointReader(const std::string& name) : name_(name) {}
+  explicit TextPointReader(const std::string& name) : name_(name) {}
 
   void read_line(std::string_view line) {
     ++line_;
@@ -229,7 +229,7 @@ class PointReader {
 
 PointCloud import_points(const std::string& name, const std::string& text) {
   std::string_view rest = without_mark(text);
-  PointReader reader(name);
+  TextPointReader reader(name);
   while (!rest.empty()) reader.read_line(take_line(rest));
   return reader.cloud();
 }

@@ -128,10 +128,10 @@ class WaterPlaces {
     const size_t column = post % part.width, row = post / part.width;
     const double x = offset_of(part.x) + step_of(part.x) * static_cast<double>(column);
     const double y = offset_of(part.y) + step_of(part.y) * static_cast<double>(row);
-    constexpr double kRounding = 1e-9, kTurn = 360;
+    constexpr double kSlack = 1e-9, kTurn = 360;
     return std::any_of(sea_.begin(), sea_.end(), [&](const DegreeCell& cell) {
       const double west = x - cell.longitude, south = y - cell.latitude;
-      const auto is_within = [](double at) { return at >= -kRounding && at <= 1 + kRounding; };
+      const auto is_within = [](double at) { return at >= -kSlack && at <= 1 + kSlack; };
       return is_within(south) && (is_within(west) || is_within(west - kTurn));
     });
   }

@@ -13,7 +13,7 @@ namespace microtin::pack {
 namespace {
 
 constexpr int64_t kOne = 65536;
-constexpr uint32_t kVertexPrice = 4;  // borders lie on a surface that is simple already
+constexpr uint32_t kPointVertexPrice = 4;  // borders lie on a surface that is simple already
 
 // start + (end - start) * part / whole, to the nearest.
 int32_t between(int32_t start, int32_t end, Wide part, Wide whole) {
@@ -176,7 +176,7 @@ PointBorders::Piece PointBorders::simplify_piece(const Lines& lines, std::size_t
   for (const auto& [place, found] : by_place) posts.push_back(line_post(found, place - begin));
   Piece piece;
   if (posts.empty()) return piece;
-  for (const ChainVertex& vertex : simplify_line(posts, ErrorModel{true}, kVertexPrice)) {
+  for (const ChainVertex& vertex : simplify_line(posts, ErrorModel{true}, kPointVertexPrice)) {
     piece.push_back({posts[vertex.post].sample->place.x, vertex.height});
   }
   return piece;

@@ -76,7 +76,7 @@ Bytes write_summary(const TileSummary& tile) {
   throw Error(path + ": cannot be written: " + std::generic_category().message(errno));
 }
 
-void expect(bool legal) {
+void require(bool legal) {
   if (!legal) throw Error(describe(MICROTIN_STATUS_MALFORMED));
 }
 
@@ -93,19 +93,19 @@ class NumberReader {
   uint32_t next32() { return static_cast<uint32_t>(next(4)); }
   uint32_t next_margin() {
     const uint32_t margin = next32();
-    expect(margin <= kMarginMost || margin == kNotStated);
+    require(margin <= kMarginMost || margin == kNotStated);
     return margin;
   }
   int16_t next_height() { return static_cast<int16_t>(static_cast<uint16_t>(next(2))); }
   Decimal next_decimal() {
     const auto mantissa = static_cast<int64_t>(next(8));
     const auto decimals = static_cast<int>(next(1));
-    expect(decimals <= kMaxDecimals);
+    require(decimals <= kMaxDecimals);
     return {mantissa, decimals};
   }
   Decimal next_error() {
     const Decimal error = next_decimal();
-    expect(error.mantissa >= 0);
+    require(error.mantissa >= 0);
     return error;
   }
 
@@ -145,8 +145,8 @@ TileSummary read_summary(const Bytes& bytes) {
   v.mean_error = reader.next_decimal();
   const uint32_t repeats = reader.next32();
   const bool is_narrow = reader.next(1) != 0;
-  expect(is_possible(v) && tile.vertices <= kMaxVertices &&
-         (repeats <= kMaxVertices || repeats == kNotMade));
+  require(is_possible(v) && tile.vertices <= kMaxVertices &&
+          (repeats <= kMaxVertices || repeats == kNotMade));
   const bool has_bounds = reader.next(1) != 0;
   const BoundSpan bounds{reader.next(8), reader.next(8), reader.next_error(), reader.next_error(),
                          reader.next_error()};
@@ -180,7 +180,7 @@ class Shard {
       const Bytes range = take(kRangeBytes + kCheckBytes);
       expect_check(range);
       range_ = {read_u32(range.data()), read_u32(range.data() + 4)};
-      expect(range_.first <= range_.last);
+      require(range_.first <= range_.last);
     });
   }
 
@@ -255,14 +255,14 @@ void expect_all_tiles(const std::vector<Shard>& shards, const TileGrid& grid) {
     next = uint64_t{range.last} + 1;
   }
   fail_if_missing(tile_count(grid));
-  expect(next == tile_count(grid));
+  require(next == tile_count(grid));
 }
 
 // The pack that a head announces.
 PackContent read_content(const Bytes& head) {
   PackHeader header{};
-  expect(read_pack_header(head.data(), &header) == MICROTIN_STATUS_OK &&
-         pack_index_start(header) <= head.size() && !has_too_many_tiles(header.grid));
+  require(read_pack_header(head.data(), &header) == MICROTIN_STATUS_OK &&
+          pack_index_start(header) <= head.size() && !has_too_many_tiles(header.grid));
   return {header.grid, read_placement_and_notes(header, head.data()), {}};
 }
 

@@ -7,7 +7,7 @@
 namespace microtin::pack {
 namespace {
 
-constexpr uint32_t kNone = 0xFFFFFFFF, kVoid = kNone - 1;  // instead of a sample's number
+constexpr uint32_t kNoSample = 0xFFFFFFFF, kVoid = kNoSample - 1;  // instead of a sample's number
 
 using Found = PlaceSamples::Found;
 
@@ -60,7 +60,7 @@ PlaceSamples::PlaceSamples(const Raster& part, const std::vector<Sample>& sample
       reach_x_(farthest_post(part.x_spacing)),
       reach_y_(farthest_post(part.y_spacing)),
       samples_(samples),
-      numbers_(part.heights.size(), kNone) {
+      numbers_(part.heights.size(), kNoSample) {
   for (std::size_t i = 0; i < part.heights.size(); ++i) {
     if (part.heights[i] == kVoidHeight) numbers_[i] = kVoid;
   }
@@ -72,7 +72,7 @@ PlaceSamples::PlaceSamples(const Raster& part, const std::vector<Sample>& sample
 
 Found PlaceSamples::post(uint32_t x, uint32_t y) const {
   const uint32_t number = numbers_[std::size_t{y} * width_ + x];
-  if (number == kNone) return {};
+  if (number == kNoSample) return {};
   if (number == kVoid) return {true, std::nullopt};
   return {true, samples_[number]};
 }

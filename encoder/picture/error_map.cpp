@@ -11,7 +11,7 @@ constexpr std::array<Colour, 3> kBelow = {
     {{0.96, 0.96, 0.95}, {0.50, 0.68, 0.84}, {0.10, 0.27, 0.53}}};
 constexpr std::array<Colour, 3> kAbove = {
     {{0.96, 0.96, 0.95}, {0.92, 0.60, 0.45}, {0.62, 0.09, 0.12}}};
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNotMeasured = std::numeric_limits<float>::quiet_NaN();
 
 // The pixels with their middles in a range, at least the one that the range is in.
 std::pair<uint32_t, uint32_t> pixels(double middle, double reach, uint32_t count) {
@@ -41,7 +41,7 @@ Colour error_colour(double relative) {
 ErrorMap::ErrorMap(const MapFrame& frame, Spot cell)
     : frame_(frame),
       reach_{whole_steps(cell.x) / frame.x_step / 2, whole_steps(cell.y) / frame.y_step / 2},
-      errors_(size_t{frame.columns()} * frame.rows(), kNone) {}
+      errors_(size_t{frame.columns()} * frame.rows(), kNotMeasured) {}
 
 void ErrorMap::add(double x, double y, double above) {
   const Spot spot = frame_.spot(x, y);

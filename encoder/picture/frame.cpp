@@ -74,7 +74,7 @@ MapFrame fit_map(const SurfaceModel& model, const Ground& ground, double width, 
 
 namespace {
 
-constexpr double kTick = 3, kRim = 0.6, kTextGap = 2.5;  // units
+constexpr double kAxisTick = 3, kRim = 0.6, kTextGap = 2.5;  // units
 
 // One side of a map.
 struct Scale {
@@ -104,7 +104,7 @@ double round_step_from(double least) {
   return 10 * power;
 }
 
-double step_of(const Scale& scale) {
+double round_step_of(const Scale& scale) {
   constexpr double kSparse = 70;  // units between ticks, at least
   const double per_unit = (scale.high - scale.low) / scale.length;
   double step = round_step_from(kSparse * per_unit);
@@ -118,7 +118,7 @@ double step_of(const Scale& scale) {
 template <class Visit>
 void for_each_tick(const Scale& scale, const Visit& visit) {
   if (!(scale.high > scale.low)) return;
-  const double step = step_of(scale), range = scale.high - scale.low;
+  const double step = round_step_of(scale), range = scale.high - scale.low;
   const double first = std::ceil(scale.low / step - 1e-9);
   const double last = std::floor(scale.high / step + 1e-9);
   for (int tick = 0; tick <= last - first; ++tick) {
@@ -133,7 +133,7 @@ void draw_coordinates(Drawing& drawing, const MapFrame& frame, const Placement& 
                       Unit horizontal, double unit) {
   const PixelBox& box = frame.box;
   const bool degrees = horizontal == Unit::kDegree;
-  const double rim = std::max(1.0, kRim * unit), tick = kTick * unit, line = 0.8 * unit;
+  const double rim = std::max(1.0, kRim * unit), tick = kAxisTick * unit, line = 0.8 * unit;
   const double west = offset_of(placement.x) + exact::step_of(placement.x) * frame.west;
   const double north = offset_of(placement.y) + exact::step_of(placement.y) * frame.north;
   const double east = west + exact::step_of(placement.x) * frame.x_step * box.width;
@@ -187,7 +187,7 @@ namespace {
 
 constexpr double kBarHeight = 6, kBarTick = 2,
                  kLabelLine = 17;  // of labels: from the top of the bar
-constexpr Colour kPaper{1, 1, 1};
+constexpr Colour kBarPaper{1, 1, 1};
 constexpr int kMostDecimals = 9;
 
 double label_width(double value, double step) {
@@ -280,7 +280,7 @@ void draw_scale_bar(Drawing& drawing, Spot corner, double most, double unit, dou
   const PixelBox box{corner.x, corner.y + (kBarHeight - 4) * unit, length / ground, 4 * unit};
   for (int part = 0; part < kParts; ++part) {
     drawing.fill({box.left + part * box.width / kParts, box.top, box.width / kParts, box.height},
-                 part % 2 == 0 ? kInk : kPaper);
+                 part % 2 == 0 ? kInk : kBarPaper);
   }
   drawing.outline(box, std::max(1.0, 0.6 * unit), kInk);
   const std::string text =

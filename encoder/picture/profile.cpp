@@ -18,7 +18,7 @@ using encoder::Profile;
 using encoder::ProfilePlace;
 using encoder::Sight;
 
-constexpr Colour kPaper{1, 1, 1}, kSoil{0.80, 0.74, 0.62}, kGround{0.42, 0.33, 0.22},
+constexpr Colour kBackground{1, 1, 1}, kSoil{0.80, 0.74, 0.62}, kGround{0.42, 0.33, 0.22},
     kAbsent{0.86, 0.86, 0.87}, kFree{0.13, 0.50, 0.28}, kInTheWay{0.78, 0.16, 0.14},
     kDoubtful{0.45, 0.45, 0.48}, kZone{0.30, 0.47, 0.74};
 
@@ -260,7 +260,7 @@ void fill_below(Canvas& canvas, const std::vector<Spot>& curve, double floor) {
 
 std::vector<uint8_t> profile_png(const ProfilePicture& picture, uint32_t width) {
   const ProfileSheet sheet(picture, width);
-  Canvas canvas(width, sheet.height(), kPaper);
+  Canvas canvas(width, sheet.height(), kBackground);
   sheet.draw_back(canvas);
   for (const auto& curve : sheet.grounds()) fill_below(canvas, curve, sheet.floor());
   sheet.draw_front(canvas);
@@ -269,7 +269,7 @@ std::vector<uint8_t> profile_png(const ProfilePicture& picture, uint32_t width) 
 
 std::string profile_svg(const ProfilePicture& picture, uint32_t width) {
   const ProfileSheet sheet(picture, width);
-  Svg svg(width, sheet.height(), kPaper);
+  Svg svg(width, sheet.height(), kBackground);
   sheet.draw_back(svg);
   for (std::vector<Spot> area : sheet.grounds()) {
     const double right = area.back().x, left = area.front().x;

@@ -178,18 +178,18 @@ std::string finer_step(const PointCloud& cloud, Decimal step, Decimal bound, Dec
 }
 
 // An attempt, with the errors where points truly lie, if it moves them.
-struct Attempt {
+struct PackAttempt {
   PointPack made;
   std::optional<Verification> true_places;
   bool is_kept = true;  // the bound, there
 };
 
-Attempt attempt(const PointCloud& cloud, const EncodeOptions& options,
-                const std::optional<Decimal>& room) {
+PackAttempt attempt(const PointCloud& cloud, const EncodeOptions& options,
+                    const std::optional<Decimal>& room) {
   EncodeOptions fitted = options;
   fitted.lattice.max_error = room;
-  Attempt result{encode_point_pack(cloud, point_options(fitted), metadata_of(options, cloud)),
-                 std::nullopt};
+  PackAttempt result{encode_point_pack(cloud, point_options(fitted), metadata_of(options, cloud)),
+                     std::nullopt};
   Metadata& metadata = result.made.content.metadata;
   const std::optional<Decimal> none, &bound = options.lattice.max_error;
   metadata.accuracy->bound = bound;
@@ -208,13 +208,13 @@ Attempt attempt(const PointCloud& cloud, const EncodeOptions& options,
 }
 
 // Where the first attempt does not keep the bound at points' true places, another within less may.
-Attempt attempt_twice(const PointCloud& cloud, const EncodeOptions& options) {
+PackAttempt attempt_twice(const PointCloud& cloud, const EncodeOptions& options) {
   const std::optional<Decimal>& bound = options.lattice.max_error;
-  Attempt first = attempt(cloud, options, bound);
+  PackAttempt first = attempt(cloud, options, bound);
   if (first.is_kept) return first;
   try {
     const Decimal room = narrower(*bound, first.true_places->max_error);
-    if (Attempt second = attempt(cloud, options, room); second.is_kept) return second;
+    if (PackAttempt second = attempt(cloud, options, room); second.is_kept) return second;
   } catch (const Error&) {  // the terrain does not go within that
   }
   const Decimal step = first.made.xy_step, error = first.true_places->max_error;

@@ -28,12 +28,12 @@ void TrueBound::see(const RealPlace& nearest, const RealPlace& exact, double bou
   if (known.kind != MICROTIN_QUERY_OK) return;
   const int32_t here = fixed_height(known.height);
   const Point place{static_cast<uint16_t>(nearest.x), static_cast<uint16_t>(nearest.y)};
-  constexpr double kMore = 1.25;  // the surface around will be another
+  constexpr double kWider = 1.25;  // the surface around will be another
   Tightening& limits = limits_at(place);
   if (above > allowed.above) {
-    limits.highest = std::min(limits.highest, moved(here, kMore * (allowed.above - above)));
+    limits.highest = std::min(limits.highest, moved(here, kWider * (allowed.above - above)));
   } else {
-    limits.lowest = std::max(limits.lowest, moved(here, kMore * (allowed.below - above)));
+    limits.lowest = std::max(limits.lowest, moved(here, kWider * (allowed.below - above)));
   }
   if (before_.count({place.x, place.y}) == 0) return;
   const ExactAnswer there = surface_.height_at(exact);

@@ -109,7 +109,7 @@ Index opposite_corner(const Mesh& mesh, const std::array<Index, 3>& seed) {
   return far;
 }
 
-constexpr Index kFewVertices = 48;
+constexpr Index kFewVerticesLeft = 48;
 
 // In a large terrain one of 1024 vertices stays for a phase of its own, to be a first
 // picture early: each costs some 4 bits.
@@ -148,7 +148,7 @@ Order breadth_first_order(Triangulation& triangulation, uint32_t degree) {
         triangulation.expect(vertices[i - kAhead], vertices[i - 2 * kAhead]);
       }
       const Index v = vertices[i];
-      if (v == last && left > kFewVertices) continue;
+      if (v == last && left > kFewVerticesLeft) continue;
       if (spread != 0 && i % spread == 0) continue;
       if (!in_seed(v) && triangulation.remove(v, degree)) batch.push_back(v);
     }

@@ -13,7 +13,7 @@ namespace microtin::terrain {
 namespace {
 
 // Numbers are fixed point with 16 fractional bits, heights too.
-constexpr int64_t kOne = 65536;
+constexpr int64_t kUnit = 65536;
 
 int64_t times(int64_t a, int64_t b) {
   return (a * b) >> 16;
@@ -30,13 +30,13 @@ int64_t corner_value(int64_t x, int64_t y, uint64_t seed) {
 
 // 3t^2 - 2t^3.
 int64_t fade(int64_t t) {
-  return times(times(t, t), 3 * kOne - 2 * t);
+  return times(times(t, t), 3 * kUnit - 2 * t);
 }
 
 // Smooth random values in 0 .. 1, one for each unit cell's corner and blended between them.
 int64_t noise(int64_t x, int64_t y, uint64_t seed) {
   const int64_t column = x >> 16, row = y >> 16;
-  const int64_t u = fade(x & (kOne - 1)), v = fade(y & (kOne - 1));
+  const int64_t u = fade(x & (kUnit - 1)), v = fade(y & (kUnit - 1));
   const auto blend = [u, seed, column](int64_t r) {
     const int64_t west = corner_value(column, r, seed);
     return west + times(u, corner_value(column + 1, r, seed) - west);
@@ -74,7 +74,7 @@ class Landscape {
       : side_(side), posts_(side * side), height_(posts_), rise_(posts_), outlet_(posts_) {
     for (uint32_t post = 0; post < posts_; ++post) {
       const uint32_t x = post % side, y = post / side;
-      const int64_t n = fractal_noise(x * kOne / kLongestWave, y * kOne / kLongestWave, seed);
+      const int64_t n = fractal_noise(x * kUnit / kLongestWave, y * kUnit / kLongestWave, seed);
       if (x != 0 && y != 0) rise_[post] = std::max<int64_t>(0, kRise * (n - kSeaShare));
       if (rise_[post] != 0) height_[post] = 2 * rise_[post] + 8 * corner_value(x, y, seed);
     }
@@ -144,7 +144,7 @@ class Landscape {
       if (rise_[post] == 0) continue;
       const auto power = static_cast<int64_t>(square_root(uint64_t{drained[post]} << 28));
       const int64_t below = height_[outlet_[post]];
-      height_[post] = below + (height_[post] + rise_[post] - below) * kOne / (kOne + power);
+      height_[post] = below + (height_[post] + rise_[post] - below) * kUnit / (kUnit + power);
     }
   }
 
@@ -159,9 +159,9 @@ class Landscape {
     }
   }
 
-  static constexpr int64_t kLongestWave = 200;           // of the pattern of rise, in posts
-  static constexpr int64_t kSeaShare = kOne * 32 / 100;  // noise below does not rise
-  static constexpr int64_t kRise = 120;                  // metres in a step where the noise is 1
+  static constexpr int64_t kLongestWave = 200;            // of the pattern of rise, in posts
+  static constexpr int64_t kSeaShare = kUnit * 32 / 100;  // noise below does not rise
+  static constexpr int64_t kRise = 120;                   // metres in a step where the noise is 1
 
   uint32_t side_, posts_;
   std::vector<int64_t> height_, rise_;
@@ -183,7 +183,7 @@ std::vector<int16_t> fractal_heights(uint32_t size, uint64_t seed) {
   heights.reserve(size_t{size} * size);
   for (uint32_t y = 0; y < size; ++y) {
     for (uint32_t x = 0; x < size; ++x) {
-      heights.push_back(static_cast<int16_t>(landscape.height(x + kMargin, y + kMargin) / kOne));
+      heights.push_back(static_cast<int16_t>(landscape.height(x + kMargin, y + kMargin) / kUnit));
     }
   }
   return heights;

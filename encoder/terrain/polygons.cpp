@@ -15,12 +15,12 @@ constexpr int64_t kParts = 1024;
 
 // The number at a coordinate, times kParts, to the nearest.
 int64_t number_at(Decimal coordinate, const Axis& axis) {
-  constexpr Wide kMost = Wide{1} << 62;
+  constexpr Wide kMostProduct = Wide{1} << 62;
   const Wide unit = power_of_ten(coordinate.decimals);
   const Wide above = coordinate.mantissa * static_cast<Wide>(axis.denominator) - axis.offset * unit;
   const Wide under = static_cast<Wide>(axis.numerator) * unit;
   const Wide number = round_divide(above * kParts, under);
-  if (magnitude(number) >= kMost) {
+  if (magnitude(number) >= kMostProduct) {
     throw Error("the coordinate " + to_string(coordinate) + " is too far from the terrain");
   }
   return static_cast<int64_t>(number);

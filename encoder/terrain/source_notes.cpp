@@ -88,7 +88,7 @@ std::optional<SourceAccuracy> united(const std::optional<SourceAccuracy>& a,
   return a->value <= b->value ? b : a;
 }
 
-bool is_same(const std::optional<Decimal>& a, const std::optional<Decimal>& b) {
+bool is_same_number(const std::optional<Decimal>& a, const std::optional<Decimal>& b) {
   return a.has_value() == b.has_value() && (!a || *a == *b);
 }
 
@@ -155,9 +155,9 @@ std::vector<std::string> join(const SourceNotes& part, SourceNotes& whole) {
   whole.date = united(whole.date, part.date);
   if (part.valid != whole.valid) whole.valid.clear();
   whole.source_accuracy = united(whole.source_accuracy, part.source_accuracy);
-  expect(is_same(part.epoch, whole.epoch), "epoch",
+  expect(is_same_number(part.epoch, whole.epoch), "epoch",
          "different epochs of their coordinates, and none is noted");
-  if (!is_same(part.epoch, whole.epoch)) whole.epoch.reset();
+  if (!is_same_number(part.epoch, whole.epoch)) whole.epoch.reset();
   return left_out;
 }
 

@@ -130,13 +130,13 @@ namespace {
 // The mean of means in billionths, each of as many samples as it covers. Where 127 bits do not hold
 // twice the sum, the means' last bits do not count.
 Wide mean_of(const std::vector<Verification>& parts, uint64_t samples) {
-  constexpr Wide kMost = Wide{1} << 125;
+  constexpr Wide kLimit = Wide{1} << 125;
   Wide largest = 0, sum = 0;
   for (const Verification& part : parts) {
     largest = std::max(largest, magnitude(mantissa_at(part.mean_error, kMaxDecimals)));
   }
   Wide unit = 1;
-  while (largest / unit >= kMost / static_cast<Wide>(samples)) unit *= 2;
+  while (largest / unit >= kLimit / static_cast<Wide>(samples)) unit *= 2;
   for (const Verification& part : parts) {
     const Wide mean = mantissa_at(part.mean_error, kMaxDecimals);
     sum += mean / unit * static_cast<Wide>(part.covered);

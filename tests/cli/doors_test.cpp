@@ -102,12 +102,12 @@ std::vector<Row> rows_of_notes() {
   const auto height_code = setting("--epsg 25832:7837", &W::vertical_epsg, uint32_t{7837},
                                    &C::vertical_epsg, uint32_t{7837});
   return {
-      {"surface", 0, surface("unknown", SurfaceKind::kUnknown, 0), two},
-      {"surface", kAll, surface("ground", SurfaceKind::kGround, 1), two},
-      {"surface", kAll, surface("top", SurfaceKind::kTop, 2), two},
-      {"surface", kAll, surface("bed", SurfaceKind::kBed, 3), two},
-      {"surface", kAll, surface("geoid", SurfaceKind::kGeoid, 4), two},
-      {"surface", kAll, surface("obstacles", SurfaceKind::kObstacles, 5), two},
+      {"surface", 0, surface("unknown", library::SurfaceKind::kUnknown, 0), two},
+      {"surface", kAll, surface("ground", library::SurfaceKind::kGround, 1), two},
+      {"surface", kAll, surface("top", library::SurfaceKind::kTop, 2), two},
+      {"surface", kAll, surface("bed", library::SurfaceKind::kBed, 3), two},
+      {"surface", kAll, surface("geoid", library::SurfaceKind::kGeoid, 4), two},
+      {"surface", kAll, surface("obstacles", library::SurfaceKind::kObstacles, 5), two},
       {"horizontal_epsg", kAll, setting("--epsg", &W::horizontal_epsg, &C::horizontal_epsg, 25832u),
        two},
       {"vertical_epsg", kAll, epsg(25832) + height_code, two},
@@ -190,7 +190,7 @@ std::vector<Row> rows() {
 }
 
 // Bytes, or nothing where a door refuses.
-using Made = std::optional<std::vector<uint8_t>>;
+using Encoded = std::optional<std::vector<uint8_t>>;
 
 // A raster and points of two decimals that 16 bits do not hold, some of which share a place.
 class Doors {
@@ -200,7 +200,7 @@ class Doors {
     session_.write("cloud.xyz", cloud());
   }
 
-  Made by_command(Kind kind, const std::vector<Setting>& settings) const {
+  Encoded by_command(Kind kind, const std::vector<Setting>& settings) const {
     std::string words = "encode " + source(kind) + " -o " + product(kind);
     for (const Setting& setting : settings) words += " " + setting.flags;
     if (is_pack(kind) && !contains(words, "--tile-vertices")) words += " --tile-vertices 60";
@@ -211,7 +211,7 @@ class Doors {
     return bytes_of_file(path(product(kind)));
   }
 
-  Made by_cpp(Kind kind, const std::vector<Setting>& settings) const {
+  Encoded by_cpp(Kind kind, const std::vector<Setting>& settings) const {
     library::Options options;
     if (is_pack(kind)) options.tile_vertices = 60;
     for (const Setting& setting : settings) setting.cpp(options);
@@ -225,7 +225,7 @@ class Doors {
     }
   }
 
-  Made by_c(Kind kind, const std::vector<Setting>& settings) const {
+  Encoded by_c(Kind kind, const std::vector<Setting>& settings) const {
     microtin_options options{};
     options.size = sizeof options;
     if (is_pack(kind)) options.tile_vertices = 60;
@@ -240,7 +240,7 @@ class Doors {
                       : microtin_encode_stream(terrain, &options, &bytes, &size, nullptr);
     microtin_source_free(terrain);
     CHECK((outcome == MICROTIN_STATUS_OK || outcome == MICROTIN_STATUS_REJECTED));
-    Made made;
+    Encoded made;
     if (outcome == MICROTIN_STATUS_OK) {
       made = is_pack(kind) ? bytes_of_file(file) : std::vector<uint8_t>(bytes, bytes + size);
     }
@@ -296,19 +296,19 @@ class Doors {
 // The command line, C++ and C.
 void walk(Kind kind) {
   const Doors doors;
-  std::map<std::string, Made> made;
+  std::map<std::string, Encoded> made;
   for (const Row& row : rows()) {
     CAPTURE(row.name);
     CAPTURE(row.set.flags);
     const std::vector<Setting> both = {row.beside, row.set};
     const bool makes_difference = (row.kinds & kind) != 0;
-    const Made command = doors.by_command(kind, both);
+    const Encoded command = doors.by_command(kind, both);
     CHECK((command == doors.by_c(kind, both)));
     CHECK((command == doors.by_cpp(kind, both)));
     if (made.count(row.beside.flags) == 0) {
       made[row.beside.flags] = doors.by_command(kind, {row.beside});
     }
-    const Made& without = made[row.beside.flags];
+    const Encoded& without = made[row.beside.flags];
     if (makes_difference) {
       CHECK((command && without && command != without));
     } else {

@@ -17,8 +17,8 @@ using namespace microtin::tests::products;
 
 namespace {
 
-constexpr const char* kC = "encoder/include/microtin/encoder.h";
-constexpr const char* kCpp = "encoder/include/microtin/encoder.hpp";
+constexpr const char* kCHeader = "encoder/include/microtin/encoder.h";
+constexpr const char* kCppHeader = "encoder/include/microtin/encoder.hpp";
 constexpr const char* kSurface = "encoder/include/microtin/surface.hpp";
 
 std::string in_lines(const std::vector<std::string>& lines) {
@@ -235,10 +235,12 @@ TEST_CASE("reports: every field of the library's is true of every kind of produc
     const Made made(product, Notes::kText);
     const Fields& truth = made.truth().fields();
     const library::Report cpp = report_in_cpp(product, made);
-    expect("C++", common_fields(cpp), truth, without(members_of(kCpp, "Report"), {"warnings"}));
+    expect("C++", common_fields(cpp), truth,
+           without(members_of(kCppHeader, "Report"), {"warnings"}));
     CHECK(in_lines(cpp.warnings) == warnings(made));
     const microtin_report c = report_in_c(product, made);
-    expect("C", common_fields(c), truth, without(members_of(kC, "microtin_report"), {"size"}));
+    expect("C", common_fields(c), truth,
+           without(members_of(kCHeader, "microtin_report"), {"size"}));
     CHECK(microtin_last_warnings() == warnings(made));
   }
 }
@@ -316,7 +318,7 @@ TEST_CASE("reports: no member of the info is without a row") {
   const Names of_streams = {"digest", "phases"};
   CHECK(text_of(members_of(kSurface, "SurfaceInfo")) ==
         text_of(united(united(both, of_streams), {"box", "source"})));
-  CHECK(text_of(members_of(kC, "microtin_surface_info")) ==
+  CHECK(text_of(members_of(kCHeader, "microtin_surface_info")) ==
         text_of(united(united(both, of_streams),
                        {"size", "west", "south", "east", "north", "phase_count"})));
 }

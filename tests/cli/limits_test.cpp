@@ -22,7 +22,7 @@ namespace library = microtin::encoder;
 
 namespace {
 
-struct Row {
+struct CommandLimit {
   std::string command, option;
   std::vector<std::string> taken, refused;
 };
@@ -41,7 +41,7 @@ std::string more(const std::string& number) {
   return std::to_string(std::stoull(number) + 1);
 }
 
-std::vector<Row> rows() {
+std::vector<CommandLimit> command_limits() {
   const std::string least = ram(3, 16), most = ram(1 << 24, 32);
   return {
       {"", "--max-vertices", {"3", "16777216"}, {"2", "16777217", "-1", "3.5"}},
@@ -81,7 +81,7 @@ std::string words_of(const std::string& command) {
   return command + " none.mtin -o none/o.png ";
 }
 
-bool is_taken(const Session& session, const Row& row, const std::string& value) {
+bool is_taken(const Session& session, const CommandLimit& row, const std::string& value) {
   const std::string command = row.command.empty() ? "encode" : row.command;
   const int code = session.run(words_of(command) + row.option + "=" + value).code;
   CHECK((code == 1 || code == 2));
@@ -151,7 +151,7 @@ std::string error_in_c(const microtin_options& options) {
 
 TEST_CASE("limits: the last number is taken, the next is not") {
   const Session session;
-  for (const Row& row : rows()) {
+  for (const CommandLimit& row : command_limits()) {
     CAPTURE(row.option);
     for (const std::string& value : row.taken) CHECK_MESSAGE(is_taken(session, row, value), value);
     for (const std::string& value : row.refused)
@@ -167,7 +167,7 @@ TEST_CASE("limits: no option that takes a number is without a row") {
     for (std::sregex_iterator at(help.begin(), help.end(), line), end; at != end; ++at) {
       const std::string option = (*at)[1];
       bool found = option == "--band";  // in a program with GDAL alone
-      for (const Row& row : rows()) {
+      for (const CommandLimit& row : command_limits()) {
         found |= row.option == option && (row.command == command || row.command.empty());
       }
       CHECK_MESSAGE(found, join({command, " ", option}));

@@ -63,7 +63,7 @@ std::string bounds() {
 }
 
 // Points of LAS 1.2, of classes 2 and 5.
-std::string scan() {
+std::string las_scan() {
   std::string las(227, '\0');
   las.replace(0, 4, "LASF");
   las[24] = 1;
@@ -85,7 +85,7 @@ std::string scan() {
   return las;
 }
 
-struct Row {
+struct OptionRow {
   std::string command, option;
   std::string words;  // without the option
   std::string value;  // of the option
@@ -94,7 +94,7 @@ struct Row {
 const char* const kProfile = "t.mtin 500 700 570 750";
 const char* const kRender = "m.mtin -o m.png --width 300";
 
-const std::vector<Row> kRows = {
+const std::vector<OptionRow> kOptionRows = {
     {"encode", "--max-error", "t.asc -o o.mtin", "2"},
     {"encode", "--max-vertices", "t.asc -o o.mtin", "99"},
     {"encode", "--max-bytes", "t.asc --fast -o o.mtin", "300"},
@@ -231,7 +231,7 @@ void write_inputs(const Session& session) {
   session.write("peak.asc", grid(30));
   session.write("mask.asc", mask());
   session.write("bounds.geojson", bounds());
-  session.write("s.las", scan());
+  session.write("s.las", las_scan());
   session.write("part.asc",
                 "ncols 2\nnrows 2\nxllcenter 510\nyllcenter 710\ncellsize 4\n1 2 3 4\n");
   const auto beside = [](const std::string& x) {
@@ -267,7 +267,7 @@ void write_inputs(const Session& session) {
 TEST_CASE("options: each of every command makes a difference" * kSlow) {
   const Session session;
   write_inputs(session);
-  for (const Row& row : kRows) {
+  for (const OptionRow& row : kOptionRows) {
     if (row.words.empty()) continue;
     CAPTURE(row.command);
     CAPTURE(row.option);
@@ -302,7 +302,7 @@ TEST_CASE("options: the default of the help page makes no difference" * kSlow) {
   const Session session;
   write_inputs(session);
   Names compared;
-  for (const Row& row : kRows) {
+  for (const OptionRow& row : kOptionRows) {
     const std::string usual = default_of(session, row.command, row.option);
     if (usual.empty()) continue;
     CAPTURE(row.command);
@@ -325,7 +325,7 @@ TEST_CASE("options: none is without a row") {
                               "check", "diff", "verify", "fractal", "render"}) {
     CAPTURE(command);
     Names known;
-    for (const Row& row : kRows) {
+    for (const OptionRow& row : kOptionRows) {
       if (row.command == command) known.insert(row.option);
     }
     // These are in a program with GDAL alone, and checked by tests/import/gdal_test.cpp.

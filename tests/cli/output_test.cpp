@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 constexpr int kReportLost = 4;
 
 // A session with a raster, points, and what is made of them.
-struct Made : Session {
-  Made() {
+struct MadeFiles : Session {
+  MadeFiles() {
     REQUIRE(run("fractal --size 33 -o t.asc").code == 0);
     write("p.xyz", "0 0 0\n9 0 3\n0 9 7\n5 5 5\n");
     REQUIRE(run("encode t.asc --max-error 10 --fast -o t.mtin").code == 0);
@@ -107,7 +107,7 @@ TEST_CASE("closed standard descriptors are held, and still fail") {
 
 TEST_CASE("cli: a closed descriptor is not reused for a file, and a lost report has an exit code" *
           kSlow) {
-  const Made made;
+  const MadeFiles made;
   for (const auto& [command, output, same_as] : kOutputs) {
     struct Closed {
       std::string how;
@@ -141,7 +141,7 @@ TEST_CASE("cli: a closed descriptor is not reused for a file, and a lost report 
 }
 
 TEST_CASE("cli: output and input on closed descriptors") {
-  const Made made;
+  const MadeFiles made;
   CHECK(made.run("decode t.mtin -o - >&-").code == 1);
   CHECK(made.run("encode p.xyz -o - >&-").code == 1);
   CHECK(made.failure("encode - -o new.mtin <&-") == "-: cannot be read: Bad file descriptor\n");
@@ -154,7 +154,7 @@ TEST_CASE("cli: output and input on closed descriptors") {
 }
 
 TEST_CASE("cli: the output is complete even if its report cannot be printed" * kSlow) {
-  const Made made;
+  const MadeFiles made;
   for (const auto& [command, output, same_as] : kOutputs) {
     const std::string& words = command;
     CAPTURE(words);
@@ -178,7 +178,7 @@ TEST_CASE("cli: the output is complete even if its report cannot be printed" * k
 }
 
 TEST_CASE("cli: what a killed process left does not keep one of the same number from writing") {
-  const Made made;
+  const MadeFiles made;
   for (const Output& o : kOutputs) {
     const std::string left = "touch " + o.output + ".part-$$ " + o.output + ".part-$$-0 " +
                              o.output + ".streams-$$; exec '" + program() + "' ";
@@ -190,7 +190,7 @@ TEST_CASE("cli: what a killed process left does not keep one of the same number 
 }
 
 TEST_CASE("cli: no command writes over any of its inputs, by whatever name" * kSlow) {
-  const Made made;
+  const MadeFiles made;
   made.shell(
       "mkdir folder; for f in t.asc t.mtin t.mtp s p.xyz; do ln $f hard-$f; ln -s $f soft-$f; "
       "ln -s ../$f folder/$f; done; cp t.asc m.asc; ln -s m.asc soft-m.asc; ln m.asc "
@@ -236,7 +236,7 @@ TEST_CASE("cli: no command writes over any of its inputs, by whatever name" * kS
 }
 
 TEST_CASE("cli: suffixes may be in capitals") {
-  const Made made;
+  const MadeFiles made;
   REQUIRE(made.run("encode t.asc --max-error 10 --fast -o U.MTIN").code == 0);
   CHECK(made.read("U.MTIN") == made.read("t.mtin"));
   REQUIRE(made.run("encode t.asc --max-error 10 --tile-vertices 99 -o U.MTP").code == 0);
@@ -252,7 +252,7 @@ TEST_CASE("cli: suffixes may be in capitals") {
 }
 
 TEST_CASE("cli: other names of standard output are standard output" * kSlow) {
-  const Made made;
+  const MadeFiles made;
   made.shell("ln -s /dev/stdout link; ln -s link link2");
   for (const std::string command :
        {"encode t.asc --max-error 10 --fast", "merge s", "decode t.mtin", "embed t.mtin",
@@ -278,7 +278,7 @@ TEST_CASE("cli: other names of standard output are standard output" * kSlow) {
 }
 
 TEST_CASE("cli: output goes where a link leads, also if there is nothing yet" * kSlow) {
-  const Made made;
+  const MadeFiles made;
   made.shell("mkdir folder; ln -s folder/new1 one; ln -s one two; ln -s '" + made.folder() +
              "/folder/new2' absolute; ln -s ring1 ring2; ln -s ring2 ring1; ln -s none/new deep");
   for (const auto& [command, output, same_as] : kOutputs) {
@@ -302,7 +302,7 @@ TEST_CASE("cli: output goes where a link leads, also if there is nothing yet" * 
 }
 
 TEST_CASE("cli: a file that is replaced keeps its mode") {
-  const Made made;
+  const MadeFiles made;
   for (const auto& [command, output, same_as] : kOutputs) {
     for (const mode_t mode : {0600u, 0640u, 0666u, 0755u}) {
       made.write(output, "old");
@@ -319,7 +319,7 @@ TEST_CASE("cli: a file that is replaced keeps its mode") {
 }
 
 TEST_CASE("cli: devices and pipes are written, not replaced") {
-  const Made made;
+  const MadeFiles made;
   made.shell(
       "mkfifo pipe; cat pipe >got & microtin encode t.asc --max-error 10 --fast -o pipe; wait");
   CHECK(made.read("got") == made.read("t.mtin"));

@@ -12,7 +12,7 @@ using namespace microtin::tests;
 
 namespace {
 
-const char* const kGrid =
+const char* const kPlacedGrid =
     "ncols 4\nnrows 3\nxllcorner 500000\nyllcorner 5000000\ncellsize 2\n"
     "1 2 3 4\n5 9 7 8\n1 1 3 9\n";
 
@@ -34,7 +34,7 @@ const char* const kGeographic =
 
 TEST_CASE("places: a grid's .prj states its system and units, decode writes an equal one") {
   const Session session;
-  session.write("t.asc", kGrid);
+  session.write("t.asc", kPlacedGrid);
   session.write("t.prj", kZone);
   for (const char* const output : {"t.mtin", "t.mtp --tile-vertices 100"}) {
     const Session::Result made = session.run("encode t.asc -o " + std::string(output));
@@ -58,7 +58,7 @@ TEST_CASE("places: a grid's .prj states its system and units, decode writes an e
 
 TEST_CASE("places: a .prj that is none is refused, or what is asked for decides") {
   const Session session;
-  session.write("t.asc", kGrid);
+  session.write("t.asc", kPlacedGrid);
   session.write("t.prj", "Projection UTM\nZone 33\n");
   for (const char* const output : {"t.mtin", "t.mtp --tile-vertices 100"}) {
     const std::string encode = "encode t.asc -o " + std::string(output);
@@ -77,7 +77,7 @@ TEST_CASE("places: a .prj that is none is refused, or what is asked for decides"
 
 TEST_CASE("places: heights in other units are converted, in every command that reads a source") {
   const Session session;
-  session.write("t.asc", kGrid);
+  session.write("t.asc", kPlacedGrid);
   session.write("t.prj", std::string(kZone) + R"(,VERTCS["v",UNIT["Centimeter",0.01]])");
   for (const char* const name : {"t.mtin", "t.mtp"}) {
     const std::string tiles = std::string(name) == "t.mtp" ? " --tile-vertices 100" : "";
@@ -124,7 +124,7 @@ TEST_CASE("places: headers of points state units, options override them with a w
 
 TEST_CASE("places: depths are refused, or turned into heights, so that never-below holds upwards") {
   const Session session;
-  session.write("t.asc", kGrid);
+  session.write("t.asc", kPlacedGrid);
   session.write("t.prj", std::string(kZone) +
                              R"(,VERTCS["v",PARAMETER["Direction",-1.0],UNIT["Meter",1.0]])");
   session.write("t.csv", "x,y,depth\n0,0,3\n100,0,4\n0,100,5\n");
@@ -167,7 +167,7 @@ TEST_CASE("places: heights in a file in degrees need a unit") {
 
 TEST_CASE("places: codes set units, and may not contradict them") {
   const Session session;
-  session.write("t.asc", kGrid);
+  session.write("t.asc", kPlacedGrid);
   const auto report = [&](const std::string& options) {
     return session.run("encode t.asc -o t.mtin " + options).out;
   };
@@ -203,7 +203,7 @@ TEST_CASE("places: codes set units, and may not contradict them") {
 
 TEST_CASE("places: an option that contradicts the file causes a warning") {
   const Session session;
-  session.write("t.asc", kGrid);
+  session.write("t.asc", kPlacedGrid);
   session.write("t.prj", kZone);
   CHECK(contains(session.run("encode t.asc -o t.mtin --units foot").out,
                  "warning: x and y are taken as foot; the file says metre"));
@@ -214,7 +214,7 @@ TEST_CASE("places: an option that contradicts the file causes a warning") {
 
 TEST_CASE("places: scenes and pictures of unknown units warn") {
   const Session session;
-  session.write("t.asc", kGrid);
+  session.write("t.asc", kPlacedGrid);
   REQUIRE(session.run("encode t.asc -o t.mtin").code == 0);
   for (const char* const command : {"decode t.mtin -o t.glb", "render t.mtin -o t.png"}) {
     const Session::Result result = session.run(command);
@@ -242,13 +242,13 @@ TEST_CASE("places: files for autopilots have degrees and metres, or are refused"
 
 TEST_CASE("places: meshes name their system, and points of meshes bring it back") {
   const Session session;
-  session.write("t.asc", kGrid);
+  session.write("t.asc", kPlacedGrid);
   REQUIRE(session.run("encode t.asc -o t.mtin --epsg 25832").code == 0);
   REQUIRE(session.run("decode t.mtin -o t.ply").code == 0);
   CHECK(contains(session.read("t.ply"), "\ncomment crs: EPSG:25832\n"));
   REQUIRE(session.run("encode t.ply -o back.mtin").code == 0);
   CHECK(contains(session.run("info back.mtin").out, "horizontal_epsg: 25832\n"));
-  session.write("u.asc", kGrid);
+  session.write("u.asc", kPlacedGrid);
   session.write("u.prj", "LOCAL_CS[\"a site\",\n  UNIT[\"Meter\",1.0]]");
   REQUIRE(session.run("encode u.asc -o u.mtin").code == 0);
   REQUIRE(session.run("decode u.mtin -o u.ply").code == 0);
@@ -259,7 +259,7 @@ TEST_CASE("places: meshes name their system, and points of meshes bring it back"
 
 TEST_CASE("places: a grid whose system has no known text causes a warning") {
   const Session session;
-  session.write("t.asc", kGrid);
+  session.write("t.asc", kPlacedGrid);
   REQUIRE(session.run("encode t.asc -o t.mtin --epsg 2056 --units m").code == 0);
   const Session::Result decoded = session.run("decode t.mtin -o back.asc");
   CHECK(decoded.code == 0);
@@ -276,7 +276,7 @@ TEST_CASE("places: GDAL reads the .prj that is written" * kSlow) {
     MESSAGE("skipped: gdalinfo is not installed");
     return;
   }
-  session.write("t.asc", kGrid);
+  session.write("t.asc", kPlacedGrid);
   const std::vector<std::pair<std::string, std::string>> systems = {
       {"32633", "+proj=utm +zone=33 +datum=WGS84 +units=m"},
       {"32733", "+proj=utm +zone=33 +south +datum=WGS84 +units=m"},

@@ -39,7 +39,7 @@ std::string waves() {
   return text;
 }
 
-json report(const Session& session, const std::string& words) {
+json json_report(const Session& session, const std::string& words) {
   const Session::Result made = session.run(words);
   CHECK_MESSAGE(made.code == 0, (words + made.err));
   return json::parse(made.out);
@@ -71,8 +71,8 @@ TEST_CASE("promises: info states what verify measures everywhere, rounded up, al
     CAPTURE(words);
     const std::string file = words.find("tile") == words.npos ? "t.mtin" : "t.mtp";
     CHECK(session.run(join({"encode t.asc --units metre -o ", file, " ", words})).code == 0);
-    const json stated = report(session, "info --json " + file),
-               found = report(session, "verify --json " + file + " t.asc --units metre");
+    const json stated = json_report(session, "info --json " + file),
+               found = json_report(session, "verify --json " + file + " t.asc --units metre");
     const double z_step = stated["steps"]["z"];
     for (const char* const side : {"max_below", "max_above"}) {
       CHECK(stated["at_samples"][side] == found[side]);
@@ -93,7 +93,7 @@ TEST_CASE("promises: points, and lattices too fine to measure, state nothing bet
   const Session session;
   session.write("p.xyz", "0 0 1\n9 0 2\n0 9 3\n9 9 5\n4 5 1\n");
   CHECK(session.run("encode p.xyz --units metre -o p.mtin").code == 0);
-  const json stated = report(session, "info --json p.mtin");
+  const json stated = json_report(session, "info --json p.mtin");
   CHECK(!stated.contains("everywhere"));
   CHECK(stated.contains("at_samples"));
 }

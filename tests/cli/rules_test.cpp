@@ -26,7 +26,7 @@ const std::vector<std::string> kRules = {"no data", "commas",     "ranges",   "s
                                          "units",   "duplicates", "sidecars", "depths"};
 const std::string kArrayOfPosts = "array of posts", kArrayOfPoints = "array of points";
 
-struct Cell {
+struct RuleCell {
   std::string rule, reader;
   std::string bytes;     // of the file; empty: the rule does not apply
   std::string outcome;   // part of the message, or why the rule does not apply
@@ -120,13 +120,13 @@ SourceTerrain cloud(const Rows& rows) {
   return SourceTerrain(microtin::encoder::point_cloud_from_xyz(rows.size(), numbers.data()));
 }
 
-const std::string kDegrees =
+const std::string kDegreesWkt =
     R"(GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,298.257223563]],)"
     R"(PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]])";
 
 // Heights from 1 to `highest`: centimetres, then depths.
-void add_conversions(std::vector<Cell>& table, const std::string& reader, const std::string& bytes,
-                     double highest, const std::string& xy,
+void add_conversions(std::vector<RuleCell>& table, const std::string& reader,
+                     const std::string& bytes, double highest, const std::string& xy,
                      const std::function<SourceTerrain()>& array = {}) {
   const uint64_t samples = static_cast<uint64_t>(highest);
   table.push_back({"units", reader, bytes, "", samples, xy + ":cm", "", array, highest / 100});
@@ -134,7 +134,7 @@ void add_conversions(std::vector<Cell>& table, const std::string& reader, const 
   table.push_back({"depths", reader, bytes, "", samples, metres, "", array, -1.0});
 }
 
-void add_rows_of_points(std::vector<Cell>& table, const std::string& reader) {
+void add_rows_of_points(std::vector<RuleCell>& table, const std::string& reader) {
   const auto file = [&](const std::string& rule, const Rows& rows, const std::string& outcome) {
     table.push_back({rule, reader, points(reader, rows), outcome});
     if (reader != kArrayOfPoints) return;
@@ -159,13 +159,13 @@ void add_rows_of_points(std::vector<Cell>& table, const std::string& reader) {
        "duplicates lowest");
   if (reader == ".xyz" || reader == ".csv" || reader == ".txt") {  // a grid by such a name
     table.push_back(
-        {"sidecars", reader, grid("158", "1"), "latitude 158 is beyond", 0, ":metre", kDegrees});
+        {"sidecars", reader, grid("158", "1"), "latitude 158 is beyond", 0, ":metre", kDegreesWkt});
   } else {
     table.push_back({"sidecars", reader, "", "has its system within, or none"});
   }
 }
 
-void add_rows_of_rasters(std::vector<Cell>& table) {
+void add_rows_of_rasters(std::vector<RuleCell>& table) {
   for (const std::string reader : {".hgt", ".zip"}) {
     const std::string bytes = reader == ".hgt" ? tile() : zipped(tile());
     table.push_back({"no data", reader, bytes, "", 3, ""});
@@ -183,7 +183,7 @@ void add_rows_of_rasters(std::vector<Cell>& table) {
                      "degree:metre"});
     table.push_back({"duplicates", reader, "", "posts do not meet"});
     table.push_back(
-        {"sidecars", reader, grid("158", "1"), "latitude 158 is beyond", 0, ":metre", kDegrees});
+        {"sidecars", reader, grid("158", "1"), "latitude 158 is beyond", 0, ":metre", kDegreesWkt});
   }
   table.push_back({"commas", ".asc", grid("0", "1,5"), "written with a point"});
   table.push_back({"skew", ".asc", "", "has none"});
@@ -191,7 +191,7 @@ void add_rows_of_rasters(std::vector<Cell>& table) {
   table.push_back({"skew", ".tif", "", "see \"gdal: skews that rounding leaves are none\""});
 }
 
-void add_rows_of_posts(std::vector<Cell>& table) {
+void add_rows_of_posts(std::vector<RuleCell>& table) {
   const auto add = [&](const std::string& rule, const std::string& outcome, uint64_t samples,
                        const std::string& units, const std::function<SourceTerrain()>& array) {
     table.push_back({rule, kArrayOfPosts, "", outcome, samples, units, "", array});
@@ -221,8 +221,8 @@ std::set<std::string> known_readers() {
   return readers;
 }
 
-std::vector<Cell> table_of_rules() {
-  std::vector<Cell> table;
+std::vector<RuleCell> table_of_rules() {
+  std::vector<RuleCell> table;
   for (const char* const reader : {".xyz", ".csv", ".txt", ".las", ".ply", ".obj"}) {
     add_rows_of_points(table, reader);
   }
@@ -232,27 +232,27 @@ std::vector<Cell> table_of_rules() {
   return table;
 }
 
-void check(const Cell& cell, uint64_t samples, const std::string& message) {
+void check(const RuleCell& cell, uint64_t samples, const std::string& message) {
   CHECK(samples == cell.samples);
   CHECK_MESSAGE(contains(message, cell.outcome), message);
 }
 
-const char* bound_of(const Cell& cell) {
+const char* bound_of(const RuleCell& cell) {
   return cell.highest ? "0.001" : "1";
 }
 
-bool is_of_depths(const Cell& cell) {
+bool is_of_depths(const RuleCell& cell) {
   return cell.rule == "depths";
 }
 
-void check_highest(const Cell& cell, const std::string& path) {
+void check_highest(const RuleCell& cell, const std::string& path) {
   if (!cell.highest) return;
   const double highest = microtin::encoder::Surface::from_file(path).info().highest;
   CHECK(highest == doctest::Approx(*cell.highest).epsilon(0.01));
 }
 
 // Behind the library's doors, in C++ and in C.
-void check_library(const Cell& cell, const std::function<SourceTerrain()>& make) {
+void check_library(const RuleCell& cell, const std::function<SourceTerrain()>& make) {
   const Session session;
   microtin::encoder::Options options;
   options.units = cell.units;
@@ -268,7 +268,7 @@ void check_library(const Cell& cell, const std::function<SourceTerrain()>& make)
   }
 }
 
-void check_c(const Cell& cell, const Session& session, const std::string& path) {
+void check_c(const RuleCell& cell, const Session& session, const std::string& path) {
   microtin_source* terrain = nullptr;
   microtin_options options = {};
   options.size = sizeof options;
@@ -291,7 +291,7 @@ void check_c(const Cell& cell, const Session& session, const std::string& path) 
   microtin_source_free(terrain);
 }
 
-void check_file(const Cell& cell) {
+void check_file(const RuleCell& cell) {
   const Session session;
   const std::string name = "N43E007" + cell.reader;
   session.write(name, cell.bytes);
@@ -322,7 +322,7 @@ std::string line_of(const std::string& document, const std::string& first) {
 TEST_CASE("rules: each holds with each reader, behind each door, or says why it does not apply") {
   std::set<std::pair<std::string, std::string>> seen;
   const std::set<std::string> readers = known_readers();
-  for (const Cell& cell : table_of_rules()) {
+  for (const RuleCell& cell : table_of_rules()) {
     CAPTURE(cell.rule);
     CAPTURE(cell.reader);
     if (readers.count(cell.reader) == 0) continue;  // GDAL is not in this build

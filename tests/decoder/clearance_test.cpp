@@ -62,7 +62,7 @@ microtin_path path_over(const microtin_segment& segment, int32_t most, Random& r
   return path;
 }
 
-struct Counts {
+struct ClearanceCounts {
   int clear = 0, low = 0, at_begin = 0;
 
   void add(const microtin_path_clearance& found) {
@@ -71,7 +71,7 @@ struct Counts {
 };
 
 void check_path(const Both& terrain, const Surface& surface, const microtin_path& path,
-                Counts& counts) {
+                ClearanceCounts& counts) {
   CAPTURE(path.segment.x);
   CAPTURE(path.segment.y);
   CAPTURE(path.segment.x_end);
@@ -95,7 +95,7 @@ void check_path(const Both& terrain, const Surface& surface, const microtin_path
 }  // namespace
 
 TEST_CASE("the clearance of a path above a terrain is exact, and its first low place") {
-  Counts counts;
+  ClearanceCounts counts;
   for_each_segment([&](const Both& terrain, const Surface& surface, const microtin_segment& c,
                        bool is_tiny, Random& random) {
     check_path(terrain, surface, path_over(c, is_tiny ? 5 : 1100, random), counts);
@@ -163,7 +163,7 @@ TEST_CASE_TEMPLATE("pack: the clearance of a path is exact, and lower by the mar
                        kSlow,
                    Device, MeshSlots, CompactSlots) {
   Random random(41);
-  Counts counts;
+  ClearanceCounts counts;
   for (const VoidKind& kind : void_kinds()) {
     CAPTURE(kind.name);
     Card card{write_pack(encode_pack(rough_raster(61, 53, kind.at), pack_options(3, 100)))};

@@ -12,7 +12,7 @@
 namespace microtin::tests {
 namespace {
 
-constexpr uint32_t kCapacity = 320;
+constexpr uint32_t kDamagedCapacity = 320;
 
 // With heights; with void flags; with a placement and all notes; with several sections.
 std::vector<Bytes> small_streams() {
@@ -59,12 +59,12 @@ bool is_final(const Device& device, microtin_status status, const Bytes& bytes) 
 TEST_CASE("every prefix needs input and, if finished there, stays truncated") {
   for (const Bytes& stream : small_streams()) {
     for (size_t size = 0; size < stream.size(); ++size) {
-      const Device device(kCapacity);
+      const Device device(kDamagedCapacity);
       CHECK(feed_copy(device, stream.data(), size) == MICROTIN_STATUS_NEED_INPUT);
       CHECK(microtin_decoder_finish(device.decoder) == MICROTIN_STATUS_TRUNCATED);
       CHECK(is_final(device, MICROTIN_STATUS_TRUNCATED, stream));
     }
-    CHECK(feed_copy(Device(kCapacity), stream.data(), stream.size()) == MICROTIN_STATUS_OK);
+    CHECK(feed_copy(Device(kDamagedCapacity), stream.data(), stream.size()) == MICROTIN_STATUS_OK);
   }
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("peek returns for every prefix the bytes that the header needs, or the
 TEST_CASE("a flipped bit or a changed byte is damage, and never taken for anything else") {
   for (const Bytes& stream : small_streams()) {
     for_each_damage(stream, [&](const Bytes& damaged, size_t at) {
-      const Device device(kCapacity);
+      const Device device(kDamagedCapacity);
       const microtin_status status = device.decode(damaged);
       const bool longer = status == MICROTIN_STATUS_TRUNCATED;  // as a damaged length makes it
       if (at < sizeof kMagic) {
@@ -112,7 +112,7 @@ TEST_CASE("damage behind right checks ends in a status, and the mesh stays sound
   for (const Bytes& stream : small_streams()) {
     for_each_damage(stream, [&](Bytes damaged, size_t) {
       const bool repaired = repair(damaged.data(), damaged.size());
-      const Device device(kCapacity);
+      const Device device(kDamagedCapacity);
       const microtin_status status = device.decode(damaged);
       done += status == MICROTIN_STATUS_OK;
       malformed += status == MICROTIN_STATUS_MALFORMED;
@@ -141,7 +141,7 @@ TEST_CASE("no payload places a vertex outside the lattice") {
         random_payload[at] = static_cast<uint8_t>(random.below(256));
       }
       repair(random_payload.data(), random_payload.size());
-      const Device device(kCapacity);
+      const Device device(kDamagedCapacity);
       device.decode(random_payload);
       const Mesh& mesh = device.mesh->mesh;
       const Contract& contract = device.decoder->reconstruction.contract;
@@ -163,7 +163,7 @@ TEST_CASE("chunks of any size give the same status for damaged streams") {
       uint8_t& byte = damaged[random.below(static_cast<uint32_t>(stream.size()))];
       byte = static_cast<uint8_t>(byte ^ 1u << random.below(8));
       if (round % 2 != 0) repair(damaged.data(), damaged.size());
-      const Device whole(kCapacity), pieces(kCapacity);
+      const Device whole(kDamagedCapacity), pieces(kDamagedCapacity);
       const microtin_status expected = whole.decode(damaged);
       microtin_status status = MICROTIN_STATUS_NEED_INPUT;
       for (size_t at = 0; at < damaged.size() && status == MICROTIN_STATUS_NEED_INPUT;) {

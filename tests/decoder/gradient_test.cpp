@@ -49,12 +49,12 @@ bool same_gradient(const microtin_gradient& a, const microtin_gradient& b) {
   return a.dx == b.dx && a.dy == b.dy && a.whole == b.whole;
 }
 
-struct Counts {
+struct GradientCounts {
   int found = 0, none = 0;
 };
 
 void check_gradient(microtin_query_result answer, const microtin_gradient& gradient,
-                    const Facet* facet, Counts& counts) {
+                    const Facet* facet, GradientCounts& counts) {
   REQUIRE((answer == MICROTIN_QUERY_OK) == (facet != nullptr));
   ++(facet != nullptr ? counts.found : counts.none);
   if (facet != nullptr) REQUIRE(is_gradient_of(*facet, gradient));
@@ -63,7 +63,7 @@ void check_gradient(microtin_query_result answer, const microtin_gradient& gradi
 }  // namespace
 
 TEST_CASE("the gradient at a position is that of one triangle, the same on a mesh and compact") {
-  Counts counts;
+  GradientCounts counts;
   for_each_segment([&](const Both& terrain, const Surface& surface, const microtin_segment& c, bool,
                        Random& random) {
     const int32_t x = static_cast<int32_t>(c.x), y = static_cast<int32_t>(c.y);
@@ -98,7 +98,7 @@ TEST_CASE("the gradient at a position is that of one triangle, the same on a mes
 TEST_CASE_TEMPLATE("pack: the gradient on a border is that of one triangle of its tiles", Device,
                    MeshSlots, CompactSlots) {
   Random random(61);
-  Counts counts;
+  GradientCounts counts;
   for (int round = 0; round < 60; ++round) {
     Card card{random_pack(random)};
     const PackFile pack(card.bytes);
@@ -130,7 +130,7 @@ TEST_CASE("a gradient of the largest triangle does not overflow") {
   const DecodedTerrain terrain(encode(tin, Metadata()));
   Surface surface;
   surface.add(terrain.mesh(), 0, 0);
-  Counts counts;
+  GradientCounts counts;
   for (const int32_t place : {0, 256, 65535 * 128, 65535 * 256}) {
     uint32_t hint = 0;
     microtin_gradient gradient = {};

@@ -13,7 +13,7 @@ namespace microtin::tests {
 namespace {
 
 // Bounds by the vertices of some tiles.
-struct Expected {
+struct BruteForceBounds {
   uint32_t tiles = 0, without_terrain = 0;
   int lowest = INT16_MAX, highest = INT16_MIN;
 
@@ -31,12 +31,13 @@ struct Expected {
   }
 };
 
-struct Found : microtin_pack_bounds {
+struct FoundBounds : microtin_pack_bounds {
   microtin_status status;
 };
 
-Found bounds_with(const PackDevice& device, Card& card, const microtin_segment& area, bool is_box) {
-  Found found{};
+FoundBounds bounds_with(const PackDevice& device, Card& card, const microtin_segment& area,
+                        bool is_box) {
+  FoundBounds found{};
   found.status =
       microtin_pack_bounds_with(device.pack, &area, is_box ? 1 : 0, &found, Card::read, &card);
   return found;
@@ -48,7 +49,7 @@ microtin_pack_info info_of(const PackDevice& device) {
   return info;
 }
 
-void check_found(const microtin_pack_bounds& found, const Expected& expected) {
+void check_found(const microtin_pack_bounds& found, const BruteForceBounds& expected) {
   CHECK(found.check.tiles == expected.tiles);
   CHECK(found.check.without_terrain == expected.without_terrain);
   CHECK(found.check.bad == 0);
@@ -70,7 +71,7 @@ TEST_CASE_TEMPLATE("pack bounds: a segment's are those of the tiles that it touc
   };
   for (int i = 0; i < 200; ++i) {
     const microtin_segment segment = {place(60), place(52), i % 4 == 0 ? 0 : place(60), place(52)};
-    Expected expected;
+    BruteForceBounds expected;
     for (TouchedTiles tiles(pack.grid(), segment); !tiles.at_end(); tiles.next()) {
       expected.add(pack, tiles.number());
     }
@@ -87,7 +88,7 @@ TEST_CASE("pack bounds: a box's are those of the tiles that it overlaps") {
   for (int i = 0; i < 200; ++i) {
     const int64_t x = random.below(61 * 256) - 300, y = random.below(53 * 256) - 300,
                   x_end = x + 1 + random.below(20 * 256), y_end = y + 1 + random.below(20 * 256);
-    Expected expected;
+    BruteForceBounds expected;
     for (uint32_t tile = 0; tile < pack.tiles(); ++tile) {
       const TileBox box = tile_box(pack.grid(), tile);
       const bool is_apart = x_end <= int64_t{box.x} * 256 || x >= int64_t{box.x_end} * 256 ||
@@ -105,7 +106,7 @@ TEST_CASE("pack bounds: entries are read, streams are not") {
   std::fill(card.bytes.begin() + static_cast<std::ptrdiff_t>(index_end), card.bytes.end(),
             uint8_t{0});
   const MeshSlots device(1);
-  const Found found = bounds_with(device, card, whole(pack.grid()), true);
+  const FoundBounds found = bounds_with(device, card, whole(pack.grid()), true);
   CHECK(found.status == MICROTIN_STATUS_OK);
   CHECK(found.check.tiles == pack.tiles());
   CHECK(card.reads < pack.tiles() + 6);
@@ -120,7 +121,7 @@ TEST_CASE_TEMPLATE("pack bounds: of damaged and absent entries nothing is known"
   card.bytes[index + 3 * 20 + 12] ^= 1;
   const Device device(2);
   for (int i = 0; i < 3; ++i) {  // a tile is remembered once, however often its entry is read
-    const Found found = bounds_with(device, card, whole(pack.grid()), true);
+    const FoundBounds found = bounds_with(device, card, whole(pack.grid()), true);
     CHECK(found.status == MICROTIN_STATUS_BAD_TILES);
     CHECK(found.check.bad == 1);
     CHECK(found.check.first_bad == 3);
@@ -133,7 +134,7 @@ TEST_CASE_TEMPLATE("pack bounds: of damaged and absent entries nothing is known"
   }
   CHECK(remembered == 1);
   card.bytes.resize(index + 5 * 20);
-  const Found cut = bounds_with(device, card, whole(pack.grid()), true);
+  const FoundBounds cut = bounds_with(device, card, whole(pack.grid()), true);
   CHECK(cut.status == MICROTIN_STATUS_BAD_TILES);
   CHECK(cut.check.bad == pack.tiles() - 4);
 }
@@ -144,7 +145,7 @@ TEST_CASE_TEMPLATE("pack bounds: calls read once, and loading and queries go on 
   card.most = 7;
   const PackFile pack(card.bytes);
   const microtin_segment all = whole(pack.grid());
-  Expected expected;
+  BruteForceBounds expected;
   for (uint32_t tile = 0; tile < pack.tiles(); ++tile) expected.add(pack, tile);
   const Device device(4);
   for (const uint32_t sector : {0u, 64u, 512u}) {
@@ -183,7 +184,7 @@ TEST_CASE("pack bounds: tiles may lie on one side of 0 alone") {
   const PackFile pack(card.bytes);
   const MeshSlots device(1);
   for (const uint32_t x : {5u, 55u}) {
-    Expected expected;
+    BruteForceBounds expected;
     for (TouchedTiles tiles(pack.grid(), at(x, 25)); !tiles.at_end(); tiles.next()) {
       expected.add(pack, tiles.number());
     }
@@ -207,7 +208,7 @@ TEST_CASE("pack bounds: clear is what lies inside, has terrain, and is below") {
   const PackFile pack(card.bytes);
   const MeshSlots device(1);
   const auto is_clear = [&](const microtin_segment& area, int64_t height, uint32_t flags) {
-    const Found found = bounds_with(device, card, area, true);
+    const FoundBounds found = bounds_with(device, card, area, true);
     REQUIRE(found.status == MICROTIN_STATUS_OK);
     const microtin_pack_info info = info_of(device);
     return microtin_pack_is_clear(&found, &info, static_cast<int32_t>(height), flags) == 1;

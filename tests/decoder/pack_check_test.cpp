@@ -13,12 +13,13 @@
 namespace microtin::tests {
 namespace {
 
-struct Found : microtin_pack_check {
+struct FoundTiles : microtin_pack_check {
   microtin_status status;
 };
 
-Found check_with(const PackDevice& device, Card& card, const microtin_segment& area, bool is_box) {
-  Found found{};
+FoundTiles check_with(const PackDevice& device, Card& card, const microtin_segment& area,
+                      bool is_box) {
+  FoundTiles found{};
   found.status =
       microtin_pack_check_with(device.pack, &area, is_box ? 1 : 0, &found, Card::read, &card);
   return found;
@@ -55,7 +56,7 @@ TEST_CASE_TEMPLATE("pack check: whole packs pass, and damaged tiles are counted"
     const std::set<uint32_t> bad = some_tiles(pack, random, percent);
     damage(card, bad);
     const Device device(2);
-    const Found found = check_with(device, card, whole(pack.grid()), true);
+    const FoundTiles found = check_with(device, card, whole(pack.grid()), true);
     CHECK(found.status == (bad.empty() ? MICROTIN_STATUS_OK : MICROTIN_STATUS_BAD_TILES));
     CHECK(found.tiles == pack.tiles());
     CHECK(found.bad == bad.size());
@@ -86,7 +87,7 @@ TEST_CASE_TEMPLATE("pack check: a segment's tiles are those that loading touches
       ++tiles;
       expected += static_cast<uint32_t>(bad.count(at.number()));
     }
-    const Found found = check_with(device, card, segment, false);
+    const FoundTiles found = check_with(device, card, segment, false);
     CHECK(found.tiles == tiles);
     CHECK(found.bad == expected);
     const auto is_within = [](int64_t v, int64_t most) { return v >= 0 && v <= most * 256; };
@@ -198,7 +199,7 @@ TEST_CASE("pack check: headers, cards that end, and wrong arguments") {
   CHECK(microtin_pack_check_box(device.pack, &far, &check) == MICROTIN_STATUS_ARGUMENT);
   Card cut = card;
   cut.bytes.resize(cut.bytes.size() - 100);
-  const Found found = check_with(device, cut, all, true);
+  const FoundTiles found = check_with(device, cut, all, true);
   CHECK(found.status == MICROTIN_STATUS_BAD_TILES);
   CHECK(found.bad >= 1);
   microtin_pack_reset(device.pack);

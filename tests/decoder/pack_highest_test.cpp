@@ -18,7 +18,7 @@ namespace {
 
 using namespace reference;
 
-struct Counts {
+struct HighestCounts {
   int known = 0, unknown = 0;
 };
 
@@ -39,7 +39,7 @@ void check_extremes(const Expected& expected, const microtin_segment_extremes& f
 
 // The answer on a segment is that of exact fractions, and those at places on it agree.
 void check_segment(const PackDevice& device, const Surface& surface, const microtin_segment& c,
-                   bool tiles_agree, Counts& counts) {
+                   bool tiles_agree, HighestCounts& counts) {
   CAPTURE(c.x);
   CAPTURE(c.y);
   CAPTURE(c.x_end);
@@ -63,7 +63,7 @@ void check_segment(const PackDevice& device, const Surface& surface, const micro
 
 template <class Device>
 void check_pack(const Bytes& bytes, Random& random, int segments, bool tiles_agree,
-                Counts& counts) {
+                HighestCounts& counts) {
   Card card{bytes};
   const PackFile pack(bytes);
   const Surface surface = surface_of(pack);
@@ -124,7 +124,7 @@ TEST_CASE_TEMPLATE(
     "pack: the extremes on a segment are exact, and known if every place is, on forged tiles",
     Device, MeshSlots, CompactSlots) {
   Random random(31);
-  Counts counts;
+  HighestCounts counts;
   for (int round = 0; round < 150; ++round) {
     check_pack<Device>(random_pack(random), random, 60, false, counts);
   }
@@ -137,7 +137,7 @@ TEST_CASE_TEMPLATE(
         kSlow,
     Device, MeshSlots, CompactSlots) {
   Random random(32);
-  Counts counts;
+  HighestCounts counts;
   for (const VoidKind& kind : void_kinds()) {
     CAPTURE(kind.name);
     const Raster raster = rough_raster(61, 53, kind.at);
@@ -152,7 +152,7 @@ TEST_CASE_TEMPLATE("pack: the extremes on a segment are exact where compact path
                        kSlow,
                    Device, MeshSlots, CompactSlots) {
   Random random(35);
-  Counts counts;
+  HighestCounts counts;
   uint32_t repeats = 0;
   for (int round = 0; round < 60; ++round) {
     const uint16_t side = static_cast<uint16_t>(5 + random.below(4));
@@ -174,7 +174,7 @@ TEST_CASE_TEMPLATE(
     "pack: an edge between voids is no height, touching a tile without terrain is no void", Device,
     MeshSlots, CompactSlots) {
   Random random(33);
-  Counts counts;
+  HighestCounts counts;
   PackOptions options = pack_options(0, 100);
   check_pack<Device>(write_pack(encode_pack(ring_of_posts(), options)), random, 400, true, counts);
   const TileGrid grid = {8, 4, 4, 4};
@@ -222,7 +222,7 @@ TEST_CASE_TEMPLATE("pack: heights where a segment leaves the terrain are rounded
     const Device device(1);
     REQUIRE(device.load(card, at(1, 1)) == MICROTIN_STATUS_OK);
     const Surface surface = surface_of(PackFile(card.bytes));
-    Counts counts;
+    HighestCounts counts;
     for (int64_t y = 1; y < 512 * 256; y += 998) {
       check_segment(device, surface, {0, y, 512 * 256, y}, true, counts);
     }

@@ -306,7 +306,7 @@ TEST_CASE("distances of two places at once are those of each") {
     const int32_t most = 1 << random.below(15);  // near the corners, too
     const int32_t x = within(most < 1 << 14 ? most : 23170);
     const int32_t low = within(i % 3 == 0 ? 35900 : most), high = within(i % 5 == 0 ? 35900 : most);
-    const Distances at = distances_at(reach, places, x, low, high);
+    const ColumnDistances at = distances_at(reach, places, x, low, high);
     const int32_t first = distance_at(reach, places, x, low);
     wrong += at.low != first || at.high != distance_at(reach, places, x, high);
     counted += first > 0 && first < 254;

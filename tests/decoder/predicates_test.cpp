@@ -89,7 +89,7 @@ bool pairs_agree(Point a, Point b, Point c, Point p) {
   Pair seen[4];
   bool right = true, inside = true;
   for (int i = 0; i < 4; ++i) {
-    seen[i] = difference(pair_of(all[i]), window);
+    seen[i] = microtin::difference(pair_of(all[i]), window);
     const bool in_window =
         all[i].x >= x && all[i].x < x + 32768 && all[i].y >= y && all[i].y < y + 32768;
     right = right && is_outside(seen[i]) == !in_window;

@@ -17,28 +17,29 @@ namespace {
 using reference::rounded;
 using reference::Wide;
 
-constexpr int64_t kFar = int64_t{1} << 61;
-constexpr uint64_t kMostOfAxis = (uint64_t{1} << 40) - 1;
-constexpr uint32_t kMostPerUnit = 1u << 24;
+constexpr int64_t kFarOffset = int64_t{1} << 61;
+constexpr uint64_t kMostRatioPart = (uint64_t{1} << 40) - 1;
+constexpr uint32_t kMostRealsPerUnit = 1u << 24;
 
-constexpr uint64_t kParts[] = {1, 2, 3, 1200, kMostOfAxis - 1, kMostOfAxis};
-constexpr int64_t kOffsets[] = {INT64_MIN, -kFar, 1 - kFar, -7777,    -1,
-                                0,         1,     7777,     kFar - 1, INT64_MAX};
-constexpr uint32_t kPerUnit[] = {0, 1, 3, 1000, 10000000, kMostPerUnit, kMostPerUnit + 1};
+constexpr uint64_t kRatioParts[] = {1, 2, 3, 1200, kMostRatioPart - 1, kMostRatioPart};
+constexpr int64_t kRealOffsets[] = {INT64_MIN, -kFarOffset, 1 - kFarOffset, -7777,    -1, 0,
+                                    1,         7777,        kFarOffset - 1, INT64_MAX};
+constexpr uint32_t kRealsPerUnit[] = {
+    0, 1, 3, 1000, 10000000, kMostRealsPerUnit, kMostRealsPerUnit + 1};
 
 // The largest whole number that is not above n / d.
 Wide floor_of(Wide n, Wide d) {
   return n / d - (n % d < 0 ? 1 : 0);
 }
 
-struct Expected {
+struct ExactSteps {
   bool known;
   Wide value;
 };
 
-Expected expected(const microtin_axis& axis, int64_t place, Wide fraction, uint32_t per_unit) {
-  const bool legal =
-      per_unit >= 1 && per_unit <= kMostPerUnit && axis.offset > -kFar && axis.offset < kFar;
+ExactSteps expected(const microtin_axis& axis, int64_t place, Wide fraction, uint32_t per_unit) {
+  const bool legal = per_unit >= 1 && per_unit <= kMostRealsPerUnit && axis.offset > -kFarOffset &&
+                     axis.offset < kFarOffset;
   const Wide steps = floor_of(place, fraction);
   const Wide far = (steps < 0 ? -steps : steps) * Wide(axis.numerator);
   if (!legal || far > (Wide{1} << 62)) return {false, 0};
@@ -50,7 +51,7 @@ Expected expected(const microtin_axis& axis, int64_t place, Wide fraction, uint3
 }
 
 uint32_t check_place(const microtin_axis& axis, int64_t place, uint32_t per_unit) {
-  const Expected right = expected(axis, place, 256, per_unit);
+  const ExactSteps right = expected(axis, place, 256, per_unit);
   int64_t found = -1;
   const bool known =
       microtin_axis_from_lattice(&axis, place, per_unit, &found) == MICROTIN_STATUS_OK;
@@ -60,7 +61,7 @@ uint32_t check_place(const microtin_axis& axis, int64_t place, uint32_t per_unit
 }
 
 uint32_t check_height(const microtin_axis& axis, int32_t height, uint32_t per_unit) {
-  const Expected right = expected(axis, height, 65536, per_unit);
+  const ExactSteps right = expected(axis, height, 65536, per_unit);
   const bool fits = right.known && right.value >= INT32_MIN && right.value <= INT32_MAX;
   int32_t found = -1;
   const bool known = microtin_axis_height(&axis, height, per_unit, &found) == MICROTIN_STATUS_OK;
@@ -71,11 +72,11 @@ uint32_t check_height(const microtin_axis& axis, int32_t height, uint32_t per_un
 
 TEST_CASE("real units: places and heights at the ends of all ranges") {
   uint32_t places = 0, heights = 0;
-  for (const uint64_t numerator : kParts) {
-    for (const uint64_t denominator : kParts) {
-      for (const int64_t offset : kOffsets) {
+  for (const uint64_t numerator : kRatioParts) {
+    for (const uint64_t denominator : kRatioParts) {
+      for (const int64_t offset : kRealOffsets) {
         const microtin_axis axis = {offset, numerator, denominator};
-        for (const uint32_t per_unit : kPerUnit) {
+        for (const uint32_t per_unit : kRealsPerUnit) {
           for (const int64_t place :
                {INT64_MIN, -(int64_t{1} << 40), int64_t{-1}, int64_t{0}, int64_t{1}, int64_t{12345},
                 int64_t{65535} * 256, int64_t{1} << 40, INT64_MAX}) {
@@ -97,10 +98,10 @@ TEST_CASE("real units: random places and heights") {
   uint32_t known = 0;
   for (int i = 0; i < 20000; ++i) {
     const microtin_axis axis = {static_cast<int64_t>(random()) >> (2 + random() % 60),
-                                (1 + random() % kMostOfAxis) >> (random() % 40),
-                                (1 + random() % kMostOfAxis) >> (random() % 40)};
+                                (1 + random() % kMostRatioPart) >> (random() % 40),
+                                (1 + random() % kMostRatioPart) >> (random() % 40)};
     if (axis.numerator == 0 || axis.denominator == 0) continue;
-    const uint32_t per_unit = 1 + static_cast<uint32_t>(random() % kMostPerUnit);
+    const uint32_t per_unit = 1 + static_cast<uint32_t>(random() % kMostRealsPerUnit);
     known += check_place(axis, static_cast<int64_t>(random() % (65536 * 256)), per_unit);
     known += check_height(axis, static_cast<int32_t>(random()), per_unit);
   }

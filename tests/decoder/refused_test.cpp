@@ -15,7 +15,7 @@
 namespace microtin::tests {
 namespace {
 
-constexpr uint32_t kCapacity = 10000;
+constexpr uint32_t kRefusedCapacity = 10000;
 
 // --- Contracts and plans -------------------------------------------------------------------------
 
@@ -168,7 +168,7 @@ Bytes valid_stream() {
 
 // A stream whose payload lacks no byte, since four zeros are taken as read.
 Bytes valid_stream_that_ends_in_zeros() {
-  constexpr uint16_t kLargest = kCapacity - 2;
+  constexpr uint16_t kLargest = kRefusedCapacity - 2;
   return forge(border_contract(kLargest), AllVoid(Plan{border_seed(kLargest), {kLargest - 1u}}));
 }
 
@@ -263,7 +263,7 @@ void add_headers(Refused& all) {
       with_placement({1, 2, 3, 1, 2, 3, 1, 0xA0, 0x80, 0x80, 0x80, 0x80, 0, 3});
   all["malformed_placement_long"] =
       with_placement({0x82, 255, 255, 255, 255, 255, 255, 255, 255, 127, 2, 3});
-  all["too_big"] = header_of(flat_contract(kCapacity + 1));
+  all["too_big"] = header_of(flat_contract(kRefusedCapacity + 1));
   all["too_big_for_all"] = header_of(flat_contract(kMaxVertices));
 }
 
@@ -286,7 +286,8 @@ void add_sections(Refused& all) {
   all["malformed_code_is_range"] = with_section({4, 0xFF, 0xFF, 0xFF, 0xFF});
   all["malformed_number_in_rounding"] = with_rounded_number();
   const Bytes border = valid_stream_that_ends_in_zeros();
-  all["malformed_payload_short"] = resized_payload(border_contract(kCapacity - 2), border, -1);
+  all["malformed_payload_short"] =
+      resized_payload(border_contract(kRefusedCapacity - 2), border, -1);
   all["malformed_payload_rest"] = resized_payload(flat_contract(4), valid_stream(), 5);
 }
 
@@ -341,7 +342,7 @@ TEST_CASE("each golden stream that must be refused is refused with its status") 
     if (std::getenv("MICROTIN_WRITE_GOLDEN") != nullptr) write_file(path, stream);
     CAPTURE(name);
     CHECK(bytes_of_file(path) == stream);
-    const Device device(kCapacity);
+    const Device device(kRefusedCapacity);
     CHECK(device.decode(stream) == status_named(name));
     CHECK(device.guards_are_whole());
     CHECK(device.decode(stream) == status_named(name));
@@ -385,11 +386,11 @@ TEST_CASE("the work of all phases is bounded to the vertex") {
     while (excess(first, last + 1) <= 0) ++last;
     if (!met && excess(first, last) == 0) {
       met = true;
-      CHECK(Device(kCapacity).decode(stream(first, last)) == MICROTIN_STATUS_OK);
+      CHECK(Device(kRefusedCapacity).decode(stream(first, last)) == MICROTIN_STATUS_OK);
     }
     if (!exceeded && excess(first, last + 1) == 1) {
       exceeded = true;
-      const Device device(kCapacity);
+      const Device device(kRefusedCapacity);
       CHECK(device.decode(stream(first, last + 1)) == MICROTIN_STATUS_MALFORMED);
       CHECK(device.vertices() == last);
     }
@@ -399,14 +400,15 @@ TEST_CASE("the work of all phases is bounded to the vertex") {
 }
 
 TEST_CASE("what is refused is one rule away from what is not") {
-  CHECK(Device(kCapacity).decode(valid_stream()) == MICROTIN_STATUS_OK);
-  CHECK(Device(kCapacity).decode(valid_stream_that_ends_in_zeros()) == MICROTIN_STATUS_OK);
+  CHECK(Device(kRefusedCapacity).decode(valid_stream()) == MICROTIN_STATUS_OK);
+  CHECK(Device(kRefusedCapacity).decode(valid_stream_that_ends_in_zeros()) == MICROTIN_STATUS_OK);
   Contract twelve = flat_contract(12);
   twelve.degree = kMaxDegree;
-  CHECK(Device(kCapacity).decode(forge(twelve, PlanCoder(scattered(12)))) == MICROTIN_STATUS_OK);
+  CHECK(Device(kRefusedCapacity).decode(forge(twelve, PlanCoder(scattered(12)))) ==
+        MICROTIN_STATUS_OK);
   Contract seven = flat_contract(7);
   seven.x_max = seven.y_max = kWheelSide;
-  CHECK(Device(kCapacity).decode(forge(seven, PlanCoder(wheel(6)))) == MICROTIN_STATUS_OK);
+  CHECK(Device(kRefusedCapacity).decode(forge(seven, PlanCoder(wheel(6)))) == MICROTIN_STATUS_OK);
 }
 
 TEST_CASE("peek and decoding return the same header") {
@@ -415,12 +417,12 @@ TEST_CASE("peek and decoding return the same header") {
     const Bytes& stream = refused.second;
     microtin_stream_info info;
     const microtin_status peeked = microtin_read_stream_info(stream.data(), stream.size(), &info);
-    const Device device(kCapacity);
+    const Device device(kRefusedCapacity);
     const microtin_status status = device.feed_all(stream);
     CAPTURE(name);
     if (status == MICROTIN_STATUS_TOO_BIG) {
       CHECK(peeked == MICROTIN_STATUS_OK);
-      CHECK(info.vertices > kCapacity);
+      CHECK(info.vertices > kRefusedCapacity);
       CHECK(info.mesh_bytes == MICROTIN_MESH_BYTES(info.vertices));
       CHECK(info.decoder_bytes == MICROTIN_DECODER_BYTES(info.vertices));
     } else {

@@ -23,7 +23,7 @@ namespace {
 
 using namespace reference;
 
-struct Counts {
+struct SegmentCounts {
   int known = 0, in_void = 0, outside = 0;
 };
 
@@ -47,7 +47,7 @@ void check_in_pieces(const Both& terrain, const microtin_segment& c, const Extre
 }
 
 void check_segment(const Both& terrain, const Surface& surface, const microtin_segment& c,
-                   Counts& counts) {
+                   SegmentCounts& counts) {
   CAPTURE(c.x);
   CAPTURE(c.y);
   CAPTURE(c.x_end);
@@ -72,7 +72,7 @@ void check_segment(const Both& terrain, const Surface& surface, const microtin_s
 }  // namespace
 
 TEST_CASE("the extremes on a segment are exact on tiny terrains, where lines meet vertices") {
-  Counts counts;
+  SegmentCounts counts;
   for (uint32_t seed = 0; seed < 150; ++seed) {
     CAPTURE(seed);
     const Both terrain(encode(tiny_tin(seed), Metadata(), Effort{32, Coding::kQuick}));
@@ -87,7 +87,7 @@ TEST_CASE("the extremes on a segment are exact on tiny terrains, where lines mee
 }
 
 TEST_CASE("the extremes on a segment of a terrain are exact, and known if every place is") {
-  Counts counts;
+  SegmentCounts counts;
   for (uint32_t seed = 0; seed < 160; ++seed) {
     CAPTURE(seed);
     const Both terrain(encode(small_tin(seed), Metadata(), Effort{32, Coding::kQuick}));

@@ -77,7 +77,7 @@ PointCloud cloud(const std::string& bytes, const std::optional<ClassSet>& classe
   return import_las("scan", bytes, classes);
 }
 
-std::string error(const std::string& bytes, const std::optional<ClassSet>& classes = {}) {
+std::string las_error(const std::string& bytes, const std::optional<ClassSet>& classes = {}) {
   return import_error([&] { cloud(bytes, classes); });
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("las: the classes that an option selects, without ground all except no
   CHECK(text_of(cloud(bytes, ClassSet().set(5).set(7))) == "100200,250,8500 100004,5,-494");
   CHECK(cloud(bytes, ClassSet().set(5).set(7)).classes == ClassSet().set(5).set(7));
   CHECK(cloud(bytes, ClassSet().set()).points.size() == 4);
-  CHECK(error(bytes, ClassSet().set(9)) ==
+  CHECK(las_error(bytes, ClassSet().set(9)) ==
         "scan: no point is taken; left out: class 2 (2), 5 (1), 7 (1), withheld (1); choose other "
         "classes by classes");
   const PointCloud rest =
@@ -197,15 +197,15 @@ TEST_CASE("las: compressed files are refused with a remedy") {
   const std::string advice =
       "scan: is compressed (LAZ): decompress it first, with laszip, las2las or "
       "\"pdal translate IN.laz OUT.las\"";
-  CHECK(error(las(2, 1, kScan).put(104, uint8_t{129}).bytes()) == advice);
-  CHECK(error(las(2, 1, kScan, record("laszip encoded", 22204, "x"), 1).bytes()) == advice);
+  CHECK(las_error(las(2, 1, kScan).put(104, uint8_t{129}).bytes()) == advice);
+  CHECK(las_error(las(2, 1, kScan, record("laszip encoded", 22204, "x"), 1).bytes()) == advice);
 }
 
 TEST_CASE("las: every error is reported") {
-  CHECK(error("") == "scan: is not a LAS file");
-  CHECK(error("LASF") == "scan: cut off: has 4 bytes, but names more");
+  CHECK(las_error("") == "scan: is not a LAS file");
+  CHECK(las_error("LASF") == "scan: cut off: has 4 bytes, but names more");
   const auto with = [](size_t at, auto value) {
-    return error(las(2, 1, kScan).put(at, value).bytes());
+    return las_error(las(2, 1, kScan).put(at, value).bytes());
   };
   CHECK(with(24, uint8_t{2}) == "scan: is of LAS version 2.2; 1.0 to 1.4 are read");
   CHECK(with(25, uint8_t{5}) == "scan: is of LAS version 1.5; 1.0 to 1.4 are read");
@@ -223,7 +223,7 @@ TEST_CASE("las: every error is reported") {
   CHECK(with(163, 1e17).find("scan: point 1: ") == 0);
   const std::string whole = las(4, 7, kScan).bytes();
   for (size_t size = 0; size < whole.size(); ++size) {
-    CHECK(error(whole.substr(0, size)) != "none");
+    CHECK(las_error(whole.substr(0, size)) != "none");
   }
 }
 
@@ -249,13 +249,13 @@ TEST_CASE("las: points whose offset lies within the header or its records are re
       BinaryFile file = sound;
       file.put(96, first);
       const uint32_t end = first < head ? head : head + 58u;
-      CHECK(error(file.bytes()) ==
+      CHECK(las_error(file.bytes()) ==
             "scan: malformed: its points begin at byte " + std::to_string(first) +
                 ", before the header and its records end, at " + std::to_string(end));
     }
     BinaryFile small = sound;
     small.put(94, uint16_t{200});
-    CHECK(error(small.bytes()) == "scan: has a header of 200 bytes; version 1." +
-                                      std::to_string(minor) + " takes " + std::to_string(head));
+    CHECK(las_error(small.bytes()) == "scan: has a header of 200 bytes; version 1." +
+                                          std::to_string(minor) + " takes " + std::to_string(head));
   }
 }

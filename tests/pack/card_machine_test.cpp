@@ -17,7 +17,7 @@ namespace {
 
 enum class Event { kNone, kPulled, kBusy, kFails, kStuck, kShort };
 
-Bytes degree_pack() {
+Bytes card_bytes() {
   const std::string text = read_file(golden("degree.mtp"));
   return {text.begin(), text.end()};
 }
@@ -113,7 +113,7 @@ class SlowCard {
     card.waited_ = 0;
   }
 
-  Bytes bytes_ = degree_pack();
+  Bytes bytes_ = card_bytes();
   Event event_ = Event::kNone;
   int steps_ = 0, waited_ = 0;
   bool is_open_ = false, is_broken_ = false;

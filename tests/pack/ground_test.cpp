@@ -13,7 +13,7 @@
 namespace microtin::tests {
 namespace {
 
-constexpr int32_t kOne = 65536, kBound = 8 * kOne;
+constexpr int32_t kUnit = 65536, kBound = 8 * kUnit;
 constexpr uint32_t kWidth = 60, kHeight = 40;
 
 std::vector<Sample> samples_of(const std::function<int32_t(uint16_t, uint16_t)>& height) {
@@ -32,34 +32,34 @@ std::vector<Sample> samples_of(const std::function<int32_t(uint16_t, uint16_t)>&
 TEST_CASE("ground: of noise on a slope the slope is left") {
   Random random(11);
   const auto slope = [](uint32_t x, uint32_t y) {
-    return 3 * static_cast<int32_t>(x) * kOne - 2 * static_cast<int32_t>(y) * kOne;
+    return 3 * static_cast<int32_t>(x) * kUnit - 2 * static_cast<int32_t>(y) * kUnit;
   };
   const Ground ground(samples_of([&](uint16_t x, uint16_t y) {
-                        return slope(x, y) + (static_cast<int32_t>(random.below(9)) - 4) * kOne;
+                        return slope(x, y) + (static_cast<int32_t>(random.below(9)) - 4) * kUnit;
                       }),
                       kWidth, kHeight);
   double squares = 0, posts = 0;
   for (uint32_t x = 8; x < kWidth - 8; ++x) {
     for (uint32_t y = 8; y < kHeight - 8; ++y, ++posts) {
-      squares += std::pow((ground.at(x, y, kBound / 4) - slope(x, y)) / double{kOne}, 2);
+      squares += std::pow((ground.at(x, y, kBound / 4) - slope(x, y)) / double{kUnit}, 2);
     }
   }
-  CHECK(std::sqrt(squares / posts) < 0.65);                                 // of noise: 2.58
-  CHECK(std::abs(ground.at(0, 20, kBound / 4) - slope(0, 20)) < 4 * kOne);  // a line of posts
+  CHECK(std::sqrt(squares / posts) < 0.65);                                  // of noise: 2.58
+  CHECK(std::abs(ground.at(0, 20, kBound / 4) - slope(0, 20)) < 4 * kUnit);  // a line of posts
 }
 
 TEST_CASE("ground: a ridge keeps its height, within the tolerance") {
   const auto ridge = [](uint32_t x) {
-    return (100 - 3 * std::abs(static_cast<int32_t>(x) - 30)) * kOne;
+    return (100 - 3 * std::abs(static_cast<int32_t>(x) - 30)) * kUnit;
   };
   const Ground ground(samples_of([&](uint16_t x, uint16_t) { return ridge(x); }), kWidth, kHeight);
-  CHECK(ground.at(30, 20, 2 * kOne) > ridge(30) - 5 * kOne);
-  CHECK(ground.at(30, 20, 100 * kOne) < ridge(30) - 10 * kOne);
+  CHECK(ground.at(30, 20, 2 * kUnit) > ridge(30) - 5 * kUnit);
+  CHECK(ground.at(30, 20, 100 * kUnit) < ridge(30) - 10 * kUnit);
 }
 
 TEST_CASE("ground: squares end before voids") {
   std::vector<Sample> samples =
-      samples_of([](uint16_t x, uint16_t) { return x < 22 ? 0 : 6 * kOne; });
+      samples_of([](uint16_t x, uint16_t) { return x < 22 ? 0 : 6 * kUnit; });
   CHECK(Ground(samples, kWidth, kHeight).at(20, 20, kBound) > 0);
   samples.erase(samples.begin() + 22 * kHeight + 20);
   CHECK(Ground(samples, kWidth, kHeight).at(20, 20, kBound) == 0);

@@ -89,7 +89,7 @@ uint64_t gaps(const PackFile& pack, const Tiles& tiles, const PointCloud& cloud)
   return gaps;
 }
 
-void check_pack(const PointCloud& cloud, const PackOptions& options) {
+void check_point_pack(const PointCloud& cloud, const PackOptions& options) {
   const PackFile pack(pack_bytes(cloud, options));
   CHECK(pack.header().most_vertices <= options.max_vertices);
   const Tiles tiles(pack);
@@ -129,8 +129,8 @@ std::optional<PointCloud> read_cloud(const std::string& name) {
 TEST_CASE("point packs have no cracks, cover the hull and keep their bound" * kSlow) {
   for (const CloudKind& kind : cloud_kinds()) {
     CAPTURE(kind.name);
-    check_pack(kind.cloud, point_options(5, 40));
-    check_pack(kind.cloud, point_options(20, 24));
+    check_point_pack(kind.cloud, point_options(5, 40));
+    check_point_pack(kind.cloud, point_options(20, 24));
   }
 }
 
@@ -138,7 +138,7 @@ TEST_CASE("point packs without a bound have every place of a point as a vertex" 
   for (const CloudKind& kind : cloud_kinds()) {
     CAPTURE(kind.name);
     const PackOptions options = point_options(0, 60);
-    check_pack(kind.cloud, options);
+    check_point_pack(kind.cloud, options);
     const PackFile pack(pack_bytes(kind.cloud, options));
     const TileGrid& grid = pack.grid();
     const SurfaceModel model = model_of(pack);
@@ -170,7 +170,7 @@ TEST_CASE("packs of real points have no cracks and keep their bound" * kSlow) {
     CAPTURE(std::string(p.name));
     PackOptions options = point_options(p.bound, p.vertices);
     if (p.bound != 0) options.lattice.max_error = Decimal{p.bound, 2};
-    check_pack(*cloud, options);
+    check_point_pack(*cloud, options);
   }
 }
 
@@ -287,7 +287,7 @@ TEST_CASE("point packs: what cannot be is refused") {
                        "steps; use 1 or more",
                        Error);
   fine.lattice.xy_step = Decimal{5000, 0};
-  check_pack(wide, fine);
+  check_point_pack(wide, fine);
 }
 
 TEST_CASE("point packs: crowds far apart are refused before all is empty tiles") {

@@ -51,7 +51,7 @@ Raster sparse_raster(const Grids& grids, const VoidAt& void_at = no_void) {
   return raster;
 }
 
-void check_pack(const Raster& raster, const PackOptions& options) {
+void check_sparse_pack(const Raster& raster, const PackOptions& options) {
   const PackFile pack(write_pack(encode_pack(raster, options)));
   CAPTURE(pack.grid().width);
   const BorderCount count = walk_borders(pack, raster);
@@ -97,9 +97,9 @@ TEST_CASE("packs of several grids: no cracks, every post within its bound, whate
     for (const uint32_t size : {7u, 10u, 13u, 20u, 60u}) {
       PackOptions options = pack_options(2, 1000);
       options.tile_size = size;
-      check_pack(raster, options);
+      check_sparse_pack(raster, options);
     }
-    check_pack(raster, pack_options(4, 60));
+    check_sparse_pack(raster, pack_options(4, 60));
   }
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("packs of several grids: voids stay voids" * kSlow) {
       try {
         PackOptions options = pack_options(2, 1000);
         options.tile_size = 16;
-        check_pack(raster, options);
+        check_sparse_pack(raster, options);
       } catch (const Error& error) {
         FAIL_CHECK(error.what());
       }

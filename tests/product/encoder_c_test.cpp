@@ -15,6 +15,7 @@
 #include "microtin/encoder.h"
 #include "microtin/encoder.hpp"
 #include "microtin/surface.hpp"
+#include "tests/support/device.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/members.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -23,7 +24,6 @@ namespace microtin::tests {
 namespace {
 
 namespace library = microtin::encoder;
-using Bytes = std::vector<uint8_t>;
 
 constexpr const char* kC = "encoder/include/microtin/encoder.h";
 constexpr const char* kSystem = "LOCAL_CS[\"site\",UNIT[\"Foot\",0.3048]]";

@@ -22,14 +22,14 @@ using microtin::tests::write_file;
 namespace {
 
 constexpr double kRounding = 1e-9;  // of differences of binary numbers
-constexpr uint32_t kColumns = 60, kRows = 45;
+constexpr uint32_t kBowlColumns = 60, kBowlRows = 45;
 constexpr Transform kTransform{599995, 10, 0, 5000005, 0, -10};
 
 // A bowl in tenths of metres with a hole in the north-west; row 0 is the northernmost.
 std::vector<double> bowl() {
   std::vector<double> heights;
-  for (int row = 0; row < int{kRows}; ++row) {
-    for (int column = 0; column < int{kColumns}; ++column) {
+  for (int row = 0; row < int{kBowlRows}; ++row) {
+    for (int column = 0; column < int{kBowlColumns}; ++column) {
       const int square = (column - 30) * (column - 30) + (row - 20) * (row - 20);
       heights.push_back(column < 4 && row < 4 ? std::nan("") : (3 * square + row) * 0.1);
     }
@@ -38,7 +38,7 @@ std::vector<double> bowl() {
 }
 
 SourceTerrain bowl_terrain() {
-  return SourceTerrain(raster_from_cells(kColumns, kRows, bowl().data(), kTransform));
+  return SourceTerrain(raster_from_cells(kBowlColumns, kBowlRows, bowl().data(), kTransform));
 }
 
 std::string stream_file(const TemporaryFolder& folder, const Options& options) {
@@ -87,8 +87,8 @@ TEST_CASE("surface: an array comes back where it lay") {
   CHECK(info.box.east == 600590);
   CHECK(info.box.north == 5000000);
   CHECK(info.box.south == 4999560);
-  CHECK(info.source.columns == kColumns);
-  CHECK(info.source.rows == kRows);
+  CHECK(info.source.columns == kBowlColumns);
+  CHECK(info.source.rows == kBowlRows);
   CHECK(info.lowest == 2);
   CHECK(largest_error(raster_of(surface)) <= kRounding);
 }
@@ -107,8 +107,8 @@ TEST_CASE("surface: a pack keeps its bound at posts, queried in any order" *
   std::vector<size_t> at;
   for (size_t i = 0; i < expected.size(); ++i) {
     at.push_back(i * 1009 % expected.size());  // 1009 is a prime
-    x.push_back(600000.0 + 10.0 * static_cast<double>(at.back() % kColumns));
-    const size_t row = at.back() / kColumns;
+    x.push_back(600000.0 + 10.0 * static_cast<double>(at.back() % kBowlColumns));
+    const size_t row = at.back() / kBowlColumns;
     y.push_back(5000000.0 - 10.0 * static_cast<double>(row));
   }
   surface.heights(x.size(), x.data(), y.data(), heights.data());
@@ -212,9 +212,9 @@ TEST_CASE("surface: cells of another size") {
 }
 
 TEST_CASE("surface: bytes of any file system, an error names the damaged file") {
-  class Held : public ByteSource {
+  class HeldBytes : public microtin::encoder::ByteSource {
    public:
-    explicit Held(std::vector<uint8_t> bytes) : bytes_(std::move(bytes)) {}
+    explicit HeldBytes(std::vector<uint8_t> bytes) : bytes_(std::move(bytes)) {}
     uint64_t size() const override { return bytes_.size(); }
     size_t read(uint64_t offset, void* to, size_t size) const override {
       if (offset >= bytes_.size()) return 0;
@@ -227,7 +227,7 @@ TEST_CASE("surface: bytes of any file system, an error names the damaged file") 
     std::vector<uint8_t> bytes_;
   };
   std::vector<uint8_t> bytes = encode_stream(bowl_terrain(), {}).bytes;
-  const auto open = [&] { return Surface::from_bytes(std::make_unique<Held>(bytes), "held"); };
+  const auto open = [&] { return Surface::from_bytes(std::make_unique<HeldBytes>(bytes), "held"); };
   CHECK(largest_error(raster_of(open())) <= kRounding);
   bytes[bytes.size() / 2] ^= 1;
   CHECK_THROWS_WITH(open(), "held: damaged: a checksum does not match");
@@ -238,7 +238,7 @@ TEST_CASE("surface: bytes of any file system, an error names the damaged file") 
 TEST_CASE("binary numbers: what is refused, and where") {
   std::vector<double> heights = bowl();
   const auto posts = [&](const Transform& t) {
-    return raster_from_cells(kColumns, kRows, heights.data(), t);
+    return raster_from_cells(kBowlColumns, kBowlRows, heights.data(), t);
   };
   CHECK(posts(kTransform).decimals == 1);
   CHECK(posts({0, 1, 1e-18, 0, -1e-9, -1}).x.offset == posts({0, 1, 0, 0, 0, -1}).x.offset);
@@ -252,7 +252,7 @@ TEST_CASE("binary numbers: what is refused, and where") {
   CHECK_THROWS(posts({0, -1, 0, 0, 0, -1}));
   CHECK_THROWS_WITH(posts({0, 1, 0, 0, 0, 0}), "transform: cells have no extent");
   CHECK_THROWS_WITH(posts({std::nan(""), 1, 0, 0, 0, -1}), "transform: a number is out of range");
-  heights[kColumns + 7] = 1e300;
+  heights[kBowlColumns + 7] = 1e300;
   CHECK_THROWS_WITH(
       posts(kTransform),
       doctest::Contains(
@@ -289,8 +289,8 @@ TEST_CASE("C: an array goes to a stream and back" * microtin::tests::kSlow) {
   const std::vector<double> heights = bowl();
   microtin_raster_data raster = {};
   raster.size = sizeof raster;
-  raster.columns = kColumns;
-  raster.rows = kRows;
+  raster.columns = kBowlColumns;
+  raster.rows = kBowlRows;
   raster.heights = heights.data();
   std::copy(kTransform.begin(), kTransform.end(), raster.transform);
   microtin_source* terrain = nullptr;

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "encoder/terrain/exact_query.hpp"
+#include "tests/support/packs.hpp"
 #include "tests/support/point_sets.hpp"
 #include "tests/support/streams.hpp"
 
@@ -18,14 +19,6 @@ using namespace microtin::tests;
 namespace {
 
 constexpr int64_t kV = kVoidHeight;
-
-Raster raster_of(uint32_t width, std::vector<int64_t> heights) {
-  Raster raster;
-  raster.width = width;
-  raster.height = static_cast<uint32_t>(heights.size()) / width;
-  raster.heights = std::move(heights);
-  return raster;
-}
 
 struct Found {
   double below = 0, above = 0;

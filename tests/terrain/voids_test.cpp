@@ -12,7 +12,7 @@ using namespace microtin::tests;
 
 namespace {
 
-constexpr int64_t kV = kVoidHeight;
+constexpr int64_t kVoid = kVoidHeight;
 
 // How many posts it fills.
 uint64_t filled(Raster& raster, uint32_t largest) {
@@ -24,27 +24,27 @@ uint64_t filled(Raster& raster, uint32_t largest) {
 }  // namespace
 
 TEST_CASE("a single post gets the mean of its neighbours") {
-  Raster raster = raster_of(3, {0, 10, 0, 20, kV, 40, 0, 30, 0});
+  Raster raster = raster_of(3, {0, 10, 0, 20, kVoid, 40, 0, 30, 0});
   CHECK(filled(raster, 1) == 1);
   CHECK(raster.heights[4] == 25);
 }
 
 TEST_CASE("regions larger than allowed stay, corners do not connect") {
-  Raster raster = raster_of(4, {1, kV, kV, 1,  //
-                                kV, 1, 1, 1,   //
+  Raster raster = raster_of(4, {1, kVoid, kVoid, 1,  //
+                                kVoid, 1, 1, 1,      //
                                 1, 1, 1, 1});
   CHECK(filled(raster, 0) == 0);
   CHECK(filled(raster, 1) == 1);
   CHECK(raster.heights[4] == 1);
-  CHECK(raster.heights[1] == kV);
+  CHECK(raster.heights[1] == kVoid);
   CHECK(filled(raster, 2) == 2);
   CHECK(raster.heights[1] == 1);
 }
 
 TEST_CASE("nothing is made of nothing") {
-  Raster raster = raster_of(2, {kV, kV, kV, kV});
+  Raster raster = raster_of(2, {kVoid, kVoid, kVoid, kVoid});
   CHECK(filled(raster, 100) == 0);
-  CHECK(raster.heights[0] == kV);
+  CHECK(raster.heights[0] == kVoid);
 }
 
 TEST_CASE("a plane goes on through a hole") {
@@ -56,7 +56,7 @@ TEST_CASE("a plane goes on through a hole") {
     return x > 5 && y > 5 && x < kSide - 3 && y < kSide - 8 && (x + y) % 23 != 0;
   };
   for (uint32_t y = 0; y < kSide; ++y) {
-    for (uint32_t x = 0; x < kSide; ++x) heights.push_back(in_hole(x, y) ? kV : plane(x, y));
+    for (uint32_t x = 0; x < kSide; ++x) heights.push_back(in_hole(x, y) ? kVoid : plane(x, y));
   }
   Raster raster = raster_of(kSide, heights);
   CHECK(filled(raster, kSide * kSide) > 2000);
@@ -70,7 +70,7 @@ TEST_CASE("a plane goes on through a hole") {
 }
 
 TEST_CASE("a region at the border continues its rim") {
-  Raster raster = raster_of(4, {5, kV, kV, kV, 5, kV, kV, kV});
+  Raster raster = raster_of(4, {5, kVoid, kVoid, kVoid, 5, kVoid, kVoid, kVoid});
   CHECK(filled(raster, 6) == 6);
   for (const int64_t height : raster.heights) CHECK(height == 5);
 }
