@@ -134,17 +134,17 @@ TEST_CASE("cli: an output that can take more than 1 GB is announced, and forced"
 
 namespace {
 
-// A pack of 257 tiles, each of a flat stream of 65,536 vertices, whose header says that they have
+// A pack of 1,025 tiles, each of a flat stream of 16,384 vertices, whose header says that they have
 // 2,097,152.
 Bytes understated_pack() {
   Tin tin;
-  for (uint32_t place = 0; place < 65536; ++place) {
+  for (uint32_t place = 0; place < 16384; ++place) {
     tin.vertices.push_back(
-        {static_cast<uint16_t>(place % 256), static_cast<uint16_t>(place / 256), 0});
+        {static_cast<uint16_t>(place % 128), static_cast<uint16_t>(place / 128), 0});
   }
-  constexpr uint32_t kTiles = 257;
+  constexpr uint32_t kTiles = 1025;
   const ForgedTile tile = forged_tile(tin);
-  Bytes pack = forged_pack({255 * kTiles, 255, 255, 255}, std::vector<ForgedTile>(kTiles, tile));
+  Bytes pack = forged_pack({127 * kTiles, 127, 127, 127}, std::vector<ForgedTile>(kTiles, tile));
   put_number(pack, note_in(pack, MICROTIN_NOTE_SUMS).first, 0x00808081, 4);
   repair_checks(pack);
   return pack;
@@ -158,12 +158,12 @@ TEST_CASE("cli: the vertices of a pack are counted, not taken from its header" *
   session.write("t.mtp", {pack.begin(), pack.end()});
   REQUIRE(contains(session.run("info t.mtp").out, "\nvertices: 2097152\n"));
   CHECK(contains(session.failure("decode t.mtp -o t.ply"), "t.ply: would take up to "));
-  const std::string many = "t.mtp: its tiles have 16842752 vertices, which take about ";
+  const std::string many = "t.mtp: its tiles have 16793600 vertices, which take about ";
   CHECK(contains(session.failure("decode t.mtp --lattice -o t.xyz"), many));
   CHECK(contains(session.failure("render t.mtp -o t.png"), many));
   CHECK(contains(session.failure("render t.mtp -o t.svg"), "use --force to read them"));
   const microtin::encoder::Surface surface =
       microtin::encoder::Surface::from_file(session.folder() + "/t.mtp");
-  CHECK_THROWS_WITH_AS(surface.mesh(), doctest::Contains("16842752 vertices; more than 16777216"),
+  CHECK_THROWS_WITH_AS(surface.mesh(), doctest::Contains("16793600 vertices; more than 16777216"),
                        std::runtime_error);
 }

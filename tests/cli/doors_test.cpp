@@ -16,6 +16,7 @@
 #include "microtin/encoder.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/members.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/session.hpp"
 #include "tests/support/slow.hpp"
 
@@ -297,7 +298,9 @@ class Doors {
 void walk(Kind kind) {
   const Doors doors;
   std::map<std::string, Encoded> made;
+  int number = 0;
   for (const Row& row : rows()) {
+    if (kIsSanitized && ++number % 8 != 0) continue;  // compilers make no difference
     CAPTURE(row.name);
     CAPTURE(row.set.flags);
     const std::vector<Setting> both = {row.beside, row.set};

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/support/members.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/session.hpp"
 #include "tests/support/slow.hpp"
 
@@ -267,8 +268,9 @@ void write_inputs(const Session& session) {
 TEST_CASE("options: each of every command makes a difference" * kSlow) {
   const Session session;
   write_inputs(session);
+  int number = 0;
   for (const OptionRow& row : kOptionRows) {
-    if (row.words.empty()) continue;
+    if (row.words.empty() || (kIsSanitized && ++number % 8 != 0)) continue;
     CAPTURE(row.command);
     CAPTURE(row.option);
     std::string words = row.command;
@@ -308,6 +310,7 @@ TEST_CASE("options: the default of the help page makes no difference" * kSlow) {
     CAPTURE(row.command);
     CAPTURE(row.option);
     compared.insert(row.option);
+    if (kIsSanitized && compared.size() % 8 != 0) continue;
     std::string words = row.command;
     words.append(" ").append(row.words);
     const std::string without = all_of(session, words);

@@ -9,6 +9,7 @@
 #include "tests/support/pack_device.hpp"
 #include "tests/support/packs.hpp"
 #include "tests/support/reference_clearance.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/segment_terrains.hpp"
 #include "tests/support/slow.hpp"
 
@@ -179,7 +180,7 @@ TEST_CASE_TEMPLATE("pack: the clearance of a path is exact, and lower by the mar
     }
     int32_t most = 1;
     for (const auto& v : surface.vertices) most = std::max(most, static_cast<int32_t>(v[2]));
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < tried(60); ++i) {
       const auto pick = [&](int64_t end) {
         return static_cast<int64_t>(random.below(static_cast<uint32_t>(end + 1)));
       };
@@ -195,8 +196,8 @@ TEST_CASE_TEMPLATE("pack: the clearance of a path is exact, and lower by the mar
       counts.add(found);
     }
   }
-  CHECK(counts.clear > 20);
-  CHECK(counts.low > 20);
+  CHECK(counts.clear > tried(20));
+  CHECK(counts.low > tried(20));
 }
 
 }  // namespace microtin::tests

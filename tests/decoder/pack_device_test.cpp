@@ -15,6 +15,7 @@
 #include "microtin/compact_pack.hpp"
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/packs.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/slow.hpp"
 
 namespace microtin::tests {
@@ -46,7 +47,7 @@ TEST_CASE_TEMPLATE("pack: heights at every position are those of the tiles, void
     const PackFile pack(card.bytes);
     const Device device(4);
     Random random(5);
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < tried(60); ++i) {
       const microtin_segment c = segment(random, 60, 52);
       const int64_t x = i % 2 == 0 ? c.x : c.x / 256 * 256, y = i % 3 == 0 ? c.y / 256 * 256 : c.y;
       REQUIRE(device.load(card, {x, y, x, y}) == MICROTIN_STATUS_OK);
@@ -290,7 +291,7 @@ TEST_CASE_TEMPLATE("pack: the highest on a segment is that of its edges and no s
     const SurfaceModel model = model_of(PackFile(card.bytes));
     const Device device(60);
     Random random(7);
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < tried(40); ++i) {
       microtin_segment c = segment(random, 60, 52);
       if (i % 4 == 0) c.x_end = c.x = c.x / 256 * 256;  // along posts, maybe a border
       if (i % 4 == 1)

@@ -10,6 +10,7 @@
 #include "tests/support/pack_segments.hpp"
 #include "tests/support/packs.hpp"
 #include "tests/support/reference_profile.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/slow.hpp"
 
 namespace microtin::tests {
@@ -193,7 +194,7 @@ TEST_CASE_TEMPLATE("pack: a profile on encoded tiles with voids is exact" * kSlo
     Card card{write_pack(encode_pack(raster, pack_options(3, 100)))};
     const Device device(64);
     const Loaded pack = load_some(device, card, random, 6);
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < tried(20); ++i) {
       const microtin_segment c = segment_around(random, pack.grid);
       if (c.x != c.x_end || c.y != c.y_end) check_profile(device, pack, c);
     }
