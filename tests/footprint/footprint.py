@@ -386,10 +386,12 @@ RUNS = {
     "How many instructions does a pack take?": {
         "pack_tile": "loading a tile of 64 vertices from flash",
         "pack_worst_call": "loading, the most expensive call of one work unit",
+        "pack_worst_call_20": "loading, the most expensive call of 20 work units",
         "pack_height": "height anywhere in 9 tiles" + MEAN_AND_WORST,
         "pack_highest": "extremes on a segment through 9 tiles" + MEAN_AND_WORST,
         "compact_pack_tile": "compact slots: loading a tile",
         "compact_pack_worst_call": "compact slots: loading, the most expensive call",
+        "compact_pack_worst_call_20": "compact slots: loading, the most expensive call of 20 work units",
         "compact_pack_height": "compact slots: height" + MEAN_AND_WORST,
         "compact_pack_highest": "compact slots: extremes on a segment" + MEAN_AND_WORST,
     },

@@ -36,9 +36,9 @@ uint32_t counted(const Work& work) {
   return after - before - (instruction_count() - after);
 }
 
-// Has all tiles there, in calls of one step: reading is counted, too, from flash.
+// Loads all tiles in calls of `step_limit` work units. Reading from flash is counted.
 template <class Pack>
-Statistics fetch(Pack& pack, microtin_pack_info& info) {
+Statistics fetch(Pack& pack, microtin_pack_info& info, uint32_t step_limit) {
   Statistics calls;
   serve(pack, {0, 0, 0, 0});
   pack.get_info(&info);
@@ -48,7 +48,9 @@ Statistics fetch(Pack& pack, microtin_pack_info& info) {
     const int64_t y = static_cast<int64_t>(i / 3 * info.tile_height) * 256 + 128;
     microtin_status status = MICROTIN_STATUS_NEED_INPUT;
     while (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) {
-      calls.add(counted([&] { status = pack.load_with({x, y, x, y}, read_flash, nullptr, 1); }));
+      calls.add(counted([&] {
+        status = pack.load_with({x, y, x, y}, read_flash, nullptr, step_limit);
+      }));
     }
   }
   return calls;
@@ -57,9 +59,10 @@ Statistics fetch(Pack& pack, microtin_pack_info& info) {
 template <class Pack>
 void measure(Pack& pack, const Told& told) {
   microtin_pack_info info;
-  const Statistics service = fetch(pack, info);
+  const Statistics service = fetch(pack, info, 1);
   told.say("_tile", service.sum() / kSlots);
   told.say("_worst_call", service.most());
+  told.say("_worst_call_20", fetch(pack, info, 20).most());
   Statistics heights, segments;
   microtin::ProbeNumbers numbers;
   const int32_t x_most = static_cast<int32_t>(info.x_max) * 256,

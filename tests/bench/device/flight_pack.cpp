@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Flies over a pack in flash, its tiles kept as meshes or, with MICROTIN_FLIGHT_COMPACT, in compact
-// form: instructions of service and queries, bytes read, RAM, heights.
+// form: instructions of service and queries, bytes read, RAM, heights. Then flies with requests,
+// and measures the longest service for several step limits.
 #include "microtin/compact_pack.hpp"
+#include "microtin/requests.h"
 #include "tests/bench/device/flight.hpp"
 #include "tests/bench/device/flight_log.hpp"
 #include "tests/bench/device/instruction_counter.hpp"
@@ -87,6 +89,44 @@ uint32_t cost_of_block(const Tiles& pack, Post at) {
   return instructions.count() - before;
 }
 
+// The most instructions of one service of requests: the place below and the way ahead, from the
+// header to the last post.
+uint32_t longest_service(microtin_pack* pack, const Flight& flight, uint32_t step_limit) {
+  const InstructionCounter instructions;
+  microtin_requests requests;
+  microtin_requests_init(&requests, pack);
+  Costs costs;
+  uint32_t bytes_read = 0;
+  for (int32_t i = 0; i < flight.posts(); i += Flight::kAhead) {
+    const microtin_segment here = segment(flight.post(i), flight.post(i)),
+                           ahead = segment(flight.post(i), flight.ahead(i));
+    microtin_requests_add(&requests, &here, MICROTIN_PRIORITY_HERE);
+    microtin_requests_add(&requests, &ahead, MICROTIN_PRIORITY_AHEAD);
+    do {
+      const uint32_t before = instructions.count();
+#ifdef MICROTIN_FLIGHT_COMPACT
+      microtin_requests_load_compact(&requests, read_card, &bytes_read, step_limit);
+#else
+      microtin_requests_load(&requests, read_card, &bytes_read, step_limit);
+#endif
+      costs.add(instructions.count() - before);
+    } while (microtin_requests_pending(&requests) != 0);
+  }
+  return costs.most;
+}
+
+uint32_t longest_service(const Flight& flight, uint32_t step_limit) {
+  static uint64_t space[sizeof(Tiles) / sizeof(uint64_t)];
+  microtin_pack* pack = nullptr;
+#ifdef MICROTIN_FLIGHT_COMPACT
+  microtin_compact_pack_init(space, sizeof space, kSlots, kCapacity,
+                             MICROTIN_COMPACT_NARROW_BYTES(kCapacity), &pack);
+#else
+  microtin_pack_init(space, sizeof space, kSlots, kCapacity, &pack);
+#endif
+  return pack == nullptr ? 0 : longest_service(pack, flight, step_limit);
+}
+
 }  // namespace
 
 int firmware_main() {
@@ -108,5 +148,9 @@ int firmware_main() {
   log("highest mean", measured.highest.mean());
   log("highest most", measured.highest.most);
   log("block", cost_of_block(pack, flight.post(flight.posts() - 28)));
+  log("service 1", longest_service(flight, 1));
+  log("service 5", longest_service(flight, 5));
+  log("service 20", longest_service(flight, 20));
+  log("service 200", longest_service(flight, 200));
   return 0;
 }

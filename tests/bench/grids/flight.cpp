@@ -181,6 +181,10 @@ void print_flight(const FlightFiles& files) {
   row("read from the card, bytes per km", "bytes read", kilometres);
   row("reading and decoding, instructions per km", "service all", kilometres);
   row("... longest call", "service most");
+  for (const char* steps : {"1", "5", "20", "200"}) {
+    row(std::string("longest service of requests, instructions; work units: ") + steps,
+        std::string("service ") + steps);
+  }
   row("a height, instructions: mean", "height mean");
   row("... most", "height most");
   row("extremes on 32 posts ahead, instructions: mean", "highest mean");
