@@ -8,11 +8,14 @@ namespace microtin {
 namespace {
 
 constexpr uint32_t kHere = MICROTIN_PRIORITY_HERE, kAhead = MICROTIN_PRIORITY_AHEAD,
-                   kOther = MICROTIN_PRIORITY_OTHER;
+                   kOther = MICROTIN_PRIORITY_OTHER, kSoon = MICROTIN_PRIORITY_SOON;
 constexpr uint8_t kNone = kNoRequest;
 // Counts of the pack's clock, about four for each service, after which a tile is not in use any
 // more.
 constexpr uint32_t kUseLasts = 4 * MICROTIN_REQUEST_LIFE;
+// Counts of PackSlot::loaded during which a tile does not give way to one that is needed soon, so
+// that such tiles do not displace each other again and again.
+constexpr uint16_t kStays = 4 * MICROTIN_REQUEST_TURN / 16;
 constexpr uint32_t kMostMissing = 32;  // of a working set
 static_assert(kAhead + 1 == kOther && kOther < MICROTIN_MAX_REQUESTS, "others come last");
 
@@ -62,18 +65,18 @@ uint32_t first_tile(const TileGrid& grid, const microtin_segment& segment) {
          slice(segment.x, grid.width, grid.x_max);
 }
 
-// The other request for that tile, or an empty one; MICROTIN_MAX_REQUESTS if there is neither.
-uint32_t place_for(const microtin_requests& r, uint32_t tile) {
-  uint32_t empty = MICROTIN_MAX_REQUESTS;
+// The request for that tile behind the first two, or an empty one, or one of lower priority, which
+// is then empty; MICROTIN_MAX_REQUESTS if there is none.
+uint32_t place_for(microtin_requests& r, uint32_t tile, uint32_t priority) {
+  uint32_t found = MICROTIN_MAX_REQUESTS;
   for (uint32_t i = kOther; i < MICROTIN_MAX_REQUESTS; ++i) {
     const microtin_request& request = r.request[i];
-    if (!request.is_set) {
-      empty = i;
-    } else if (first_tile(r.pack->header.grid, request.segment) == tile) {
-      return i;
-    }
+    if (request.is_set && first_tile(r.pack->header.grid, request.segment) == tile) return i;
+    const bool is_free = !request.is_set;
+    if (is_free || (found == MICROTIN_MAX_REQUESTS && request.priority > priority)) found = i;
   }
-  return empty;
+  if (found != MICROTIN_MAX_REQUESTS) r.request[found].is_set = 0;
+  return found;
 }
 
 // Whether a request that found no room before gets the first one: by lot, so that the order in
@@ -120,7 +123,10 @@ void find_use(microtin_requests& r) {
     PackSlot& slot = p.slots[i];
     const bool is_in_use =
         !slot.is_empty() && i != r.giving_way && p.clock - slot.wanted < kUseLasts;
-    slot.priority = is_in_use ? static_cast<uint8_t>(kOther) : kNone;
+    const bool stays = static_cast<uint16_t>((p.clock >> 4) - slot.loaded) < kStays;
+    slot.priority = is_in_use ? static_cast<uint8_t>(kOther)
+                    : stays   ? static_cast<uint8_t>(kSoon)
+                              : kNone;
   }
 }
 
@@ -152,24 +158,37 @@ bool wants(microtin_requests& r, uint32_t priority, microtin_segment* segment) {
   return is_wanted;
 }
 
-// The other request to be loaded: that in hand, or that which has waited longest; none: kNone.
+// Whether of two requests behind the first two the former is loaded first: the more important one,
+// then that in hand, then that which has waited longer.
+bool comes_before(const microtin_requests& r, uint8_t one, uint8_t other) {
+  const microtin_request &a = r.request[one], &b = r.request[other];
+  if (a.priority != b.priority) return a.priority < b.priority;
+  if (other == r.loading) return false;
+  return one == r.loading || a.waits > b.waits;
+}
+
+// The other request to be loaded; none: kNone.
 uint8_t choose_other(microtin_requests& r, microtin_segment* segment) {
   for (;;) {  // each time forgets a request
     uint8_t chosen = kNone;
     for (uint8_t i = kOther; i < MICROTIN_MAX_REQUESTS; ++i) {
-      if (!r.request[i].is_set) continue;
-      if (chosen == kNone || r.request[i].waits > r.request[chosen].waits) chosen = i;
-      if (i == r.loading) {
-        chosen = i;
-        break;
-      }
+      if (r.request[i].is_set && (chosen == kNone || comes_before(r, i, chosen))) chosen = i;
     }
     if (chosen == kNone) return kNone;
-    *segment = segment_of(r.request[chosen]);
-    if (keep(*r.pack, *segment, kOther)) return chosen;
-    r.request[chosen].is_set = 0;
+    microtin_request& request = r.request[chosen];
+    *segment = segment_of(request);
+    const uint32_t priority = request.priority;
+    const bool is_missing = keep(*r.pack, *segment, priority);
+    if (is_missing && (priority == kOther || open_slots(*r.pack, kSoon) != 0)) return chosen;
+    request.is_set = 0;
     if (chosen == r.loading) end_loading(r);
   }
+}
+
+// A tile that is loaded before it is queried is not in use yet.
+void note_soon(microtin_pack& p, const microtin_segment& segment) {
+  const uint32_t slot = slot_of(p, first_tile(p.header.grid, segment));
+  if (slot != p.slot_count) p.slots[slot].wanted -= kUseLasts;
 }
 
 // Lets the tile of another place that was loaded first give way, if it is time.
@@ -234,20 +253,25 @@ microtin_status microtin_requests_add(microtin_requests* requests, const microti
     put(r.request[priority], *segment);
     return MICROTIN_STATUS_OK;
   }
-  if (priority != kOther) return MICROTIN_STATUS_ARGUMENT;
+  if (priority > kSoon) return MICROTIN_STATUS_ARGUMENT;
   if (!r.pack->has_header) return MICROTIN_STATUS_NEED_INPUT;
-  const uint32_t place = place_for(r, first_tile(r.pack->header.grid, *segment));
+  const uint32_t place = place_for(r, first_tile(r.pack->header.grid, *segment), priority);
   const bool has_room = place != MICROTIN_MAX_REQUESTS;
   const bool is_new = has_room && !r.request[place].is_set;
-  if (!has_room || (is_new && r.was_full && !wins(r))) {
+  if (priority == kOther && (!has_room || (is_new && r.was_full && !wins(r)))) {
     r.was_full = 1;
     return MICROTIN_STATUS_TOO_BIG;
   }
+  if (!has_room) return MICROTIN_STATUS_TOO_BIG;
+  microtin_request& request = r.request[place];
   if (is_new) {
-    r.request[place].waits = 0;
-    r.was_full = 0;
+    request.waits = 0;
+    if (priority == kOther) r.was_full = 0;
+  } else if (request.priority < priority) {
+    return MICROTIN_STATUS_OK;
   }
-  put(r.request[place], *segment);
+  request.priority = static_cast<uint8_t>(priority);
+  put(request, *segment);
   return MICROTIN_STATUS_OK;
 }
 
@@ -257,7 +281,8 @@ uint32_t microtin_requests_pending(const microtin_requests* requests) {
     const microtin_request& request = requests->request[i];
     const bool is_served =
         i < kOther && request.version == request.served && requests->loading != i;
-    if (request.is_set && !is_served) ++count;
+    const bool is_soon = i >= kOther && request.priority == kSoon;
+    if (request.is_set && !is_served && !is_soon) ++count;
   }
   return count;
 }
@@ -267,7 +292,8 @@ uint32_t microtin_requests_working_set(const microtin_requests* requests) {
   if (!p.has_header) return 0;
   uint32_t list[kMostMissing], missing = 0, used = 0;
   for (const microtin_request& request : requests->request) {
-    if (request.is_set) missing = add_missing(p, segment_of(request), list, missing);
+    if (!request.is_set || request.priority == kSoon) continue;  // the first two have 0
+    missing = add_missing(p, segment_of(request), list, missing);
   }
   for (uint32_t i = 0; i < p.slot_count; ++i) {
     if (!p.slots[i].is_empty() && p.slots[i].priority <= kOther) ++used;
@@ -295,7 +321,7 @@ microtin_status microtin_requests_next(microtin_requests* requests, microtin_seg
   if (r.loading < kOther) end_loading(r);
   const uint8_t other = choose_other(r, segment);
   if (other == kNone) return MICROTIN_STATUS_OK;
-  take_in_hand(r, other, kOther);
+  take_in_hand(r, other, r.request[other].priority);
   return open_slots(*r.pack, kOther) != 0 || take_turn(r) ? MICROTIN_STATUS_NEED_INPUT
                                                           : MICROTIN_STATUS_WORKSPACE_TOO_SMALL;
 }
@@ -308,10 +334,11 @@ microtin_status microtin_requests_note(microtin_requests* requests, microtin_sta
   }
   if (r.loading < MICROTIN_MAX_REQUESTS) {
     microtin_request& request = r.request[r.loading];
-    const uint32_t priority = r.loading < kOther ? r.loading : kOther;
+    const uint32_t priority = r.loading < kOther ? r.loading : request.priority;
     // Bad tiles that the pack has forgotten are not tried again at once.
     if (keep(*r.pack, segment_of(request), priority)) request.rest = MICROTIN_REQUEST_LIFE;
-    if (priority == kOther) request.is_set = 0;
+    if (priority >= kOther) request.is_set = 0;
+    if (priority == kSoon) note_soon(*r.pack, segment_of(request));
   }
   end_loading(r);
   return MICROTIN_STATUS_STEP_LIMIT;

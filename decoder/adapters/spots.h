@@ -22,6 +22,13 @@
 /* Millimetres of the way ahead that are requested, at most. */
 #define MICROTIN_SPOTS_AHEAD 10000000
 
+/* Terrain that will be queried is loaded before: so far ahead of each place, in 1e-7 degrees of
+ * latitude or longitude, whichever changes more. 500 m to the north. */
+#define MICROTIN_SPOTS_LEAD 45000
+
+/* The vehicle's course is taken over a tenth of that. */
+#define MICROTIN_SPOTS_COURSE 4500
+
 /* A place, in 1e-7 degrees. */
 typedef struct microtin_spot {
   int32_t latitude, longitude;
@@ -41,6 +48,10 @@ typedef struct microtin_spots {
   uint32_t hint;
   microtin_requests requests;
   microtin_latch home;
+  microtin_spot course_from; /* where the course was taken last, also on the lattice */
+  int64_t course_x, course_y;
+  int64_t lead_x, lead_y; /* MICROTIN_SPOTS_LEAD along the course, on the lattice */
+  uint8_t has_course;     /* course_from is known */
 } microtin_spots;
 
 static inline void microtin_latch_set(microtin_latch* latch, microtin_spot at) {
@@ -55,6 +66,9 @@ static inline void microtin_spots_init(microtin_spots* s, microtin_pack* pack) {
   s->hint = 0;
   s->home.has_place = 0;
   s->home.has_height = 0;
+  s->has_course = 0;
+  s->lead_x = 0;
+  s->lead_y = 0;
   microtin_requests_init(&s->requests, pack);
 }
 
@@ -143,9 +157,42 @@ static inline microtin_status microtin_spots_check(microtin_spots* s, microtin_s
                                                                      : status;
 }
 
+/* Takes the course again if the vehicle has moved by MICROTIN_SPOTS_COURSE. */
+static inline void microtin_spots_take_course(microtin_spots* s, microtin_spot here) {
+  int64_t x, y, north = (int64_t)here.latitude - s->course_from.latitude,
+                east = (int64_t)here.longitude - s->course_from.longitude, most;
+  if (north < 0) north = -north;
+  if (east < 0) east = -east;
+  most = north > east ? north : east;
+  if ((s->has_course && most < MICROTIN_SPOTS_COURSE) || !microtin_spots_place(s, here, &x, &y)) {
+    return;
+  }
+  if (s->has_course) { /* below 2^41 * 2^16 */
+    s->lead_x = (x - s->course_x) * MICROTIN_SPOTS_LEAD / most;
+    s->lead_y = (y - s->course_y) * MICROTIN_SPOTS_LEAD / most;
+  }
+  s->course_from = here;
+  s->course_x = x;
+  s->course_y = y;
+  s->has_course = 1;
+}
+
 /* The vehicle is here: this tile comes first. */
 static inline void microtin_spots_set_position(microtin_spots* s, microtin_spot here) {
   microtin_spots_request(s, here, here, MICROTIN_PRIORITY_HERE);
+  microtin_spots_take_course(s, here);
+}
+
+/* A place was queried that moves with the vehicle: requests where it will be soon, if that is
+ * another tile. */
+static inline void microtin_spots_request_soon(microtin_spots* s, int64_t x, int64_t y) {
+  const int64_t to_x = x + s->lead_x, to_y = y + s->lead_y;
+  const microtin_segment place = {to_x, to_y, to_x, to_y};
+  if ((uint32_t)(x >> 8) / s->info.tile_width == (uint32_t)(to_x >> 8) / s->info.tile_width &&
+      (uint32_t)(y >> 8) / s->info.tile_height == (uint32_t)(to_y >> 8) / s->info.tile_height) {
+    return;
+  }
+  microtin_requests_add(&s->requests, &place, MICROTIN_PRIORITY_SOON);
 }
 
 /* The terrain in millimetres at a lattice position with 8 fractional bits. OUTSIDE also for a
@@ -193,10 +240,21 @@ static inline int microtin_spots_ask_latch(microtin_spots* s, microtin_latch* la
 static inline int microtin_spots_ask_place(microtin_spots* s, microtin_spot at,
                                            int32_t* millimetres) {
   const microtin_latch* const home = &s->home;
+  microtin_query_result answer;
+  microtin_segment place;
   if (home->has_place && home->at.latitude == at.latitude && home->at.longitude == at.longitude) {
     return microtin_spots_ask_latch(s, &s->home, millimetres);
   }
-  return microtin_spots_ask(s, at, millimetres);
+  if (!microtin_spots_place(s, at, &place.x, &place.y)) return 0;
+  place.x_end = place.x;
+  place.y_end = place.y;
+  answer = microtin_spots_height_on(s, place.x, place.y, millimetres);
+  if (answer == MICROTIN_QUERY_OK) {
+    microtin_spots_request_soon(s, place.x, place.y);
+  } else if (answer == MICROTIN_QUERY_NOT_LOADED) {
+    microtin_requests_add(&s->requests, &place, MICROTIN_PRIORITY_OTHER);
+  }
+  return answer == MICROTIN_QUERY_OK;
 }
 
 /* The sine of an angle in 1/100 degree, times 65536; within 10 of it. A polynomial with x, x^3 and

@@ -62,9 +62,9 @@ void run(const std::string& command, const Arguments& arguments) {
         {arguments[0], arguments[1], arguments[2], arguments[3], arguments[4], arguments[5]});
   } else if (command == "cell" && arguments.size() == 1) {
     write_cell(arguments[0]);
-  } else if (command == "autopilots" && arguments.size() == 6) {
-    print_autopilots(
-        {arguments[0], arguments[1], arguments[2], arguments[3], arguments[4], arguments[5]});
+  } else if (command == "autopilots" && arguments.size() == 7) {
+    print_autopilots({arguments[0], arguments[1], arguments[2], arguments[3], arguments[4],
+                      arguments[5], arguments[6]});
   } else if (command == "linearity" && arguments.size() == 1) {
     print_linearity(
         {"nanoseconds", [](const Work& work) { return 1e9 * seconds_of(work); }, 4096000},
@@ -92,7 +92,7 @@ void run(const std::string& command, const Arguments& arguments) {
   } else {
     throw Error(
         "usage: microtin_bench rate | bounds | budgets [TERRAIN] | curves FILE | paper | peers | "
-        "peer-instructions FILE | cell FILE | autopilots CALLGRIND TERRAIN PACK TER DAT DAT | "
+        "peer-instructions FILE | cell FILE | autopilots CALLGRIND TERRAIN PACK PACK TER DAT DAT | "
         "grid TERRAIN GRID | flight TERRAIN PACK GRID LOG LOG LOG | linearity PLOT | growth FILE "
         "PLOT "
         "| starts | train | streams FOLDER | curve-streams FOLDER | times STREAM... | "

@@ -1,5 +1,5 @@
-/* SPDX-License-Identifier: MIT
- * A pack on a card with AsyncFatFs, read by decoder/adapters/card.h. A sector takes several polls,
+// SPDX-License-Identifier: MIT
+/* A pack on a card with AsyncFatFs, read by decoder/adapters/card.h. A sector takes several polls,
  * so that nearly all calls answer "not yet". The image is an empty volume with FAT16. */
 #include "asyncfatfs.h"
 

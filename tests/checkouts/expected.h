@@ -1,5 +1,5 @@
-/* SPDX-License-Identifier: MIT
- * The pack of a test, and heights that are right: from a pack that is loaded whole, from memory. */
+// SPDX-License-Identifier: MIT
+/* The pack of a test, and heights that are right: from a pack that is loaded whole, from memory. */
 #ifndef MICROTIN_TESTS_CHECKOUTS_EXPECTED_H
 #define MICROTIN_TESTS_CHECKOUTS_EXPECTED_H
 

@@ -1,5 +1,5 @@
-/* SPDX-License-Identifier: MIT
- * A pack on a card in memory with FatFs, of which each 23rd read fails: after a failure the file is
+// SPDX-License-Identifier: MIT
+/* A pack on a card in memory with FatFs, of which each 23rd read fails: after a failure the file is
  * opened again, as decoder/docs/packs.md describes. */
 #include "diskio.h"
 #include "ff.h" /* before diskio.h, which needs its types: by the command in run */

@@ -179,6 +179,72 @@ TEST_CASE("requests: none of many places starves, and the own place stays") {
   }
 }
 
+TEST_CASE_TEMPLATE("requests: a place that is needed soon takes a slot that serves nothing", Slots,
+                   MeshSlots, CompactSlots) {
+  Served<Slots> here(3);
+  here.add(middle(0, 0), MICROTIN_PRIORITY_HERE);
+  here.settle();
+  const auto query_two = [&] {  // so that they are in use
+    for (const uint32_t x : {0u, 1u}) {
+      if (!here.knows(middle(x, 0))) here.add(middle(x, 0), MICROTIN_PRIORITY_OTHER);
+    }
+  };
+  query_two();
+  here.settle();
+  here.add(middle(5, 0), MICROTIN_PRIORITY_SOON);
+  CHECK(microtin_requests_working_set(&here.requests) == 2);
+  CHECK(here.settle() == MICROTIN_STATUS_OK);
+  CHECK(here.knows(middle(5, 0)));
+  // No other one displaces it at once, nor the tiles that are in use.
+  const uint32_t reads = here.card.reads;
+  for (int i = 0; i < MICROTIN_REQUEST_TURN / 4; ++i) {
+    query_two();
+    here.add(middle(6, 0), MICROTIN_PRIORITY_SOON);
+    CHECK(here.serve() == MICROTIN_STATUS_OK);
+  }
+  CHECK(here.card.reads == reads);
+  CHECK(microtin_requests_pending(&here.requests) == 0);
+}
+
+TEST_CASE("requests: a tile that is needed soon gives way at once to one that is missing") {
+  Served<MeshSlots> here(2);
+  here.add(middle(0, 0), MICROTIN_PRIORITY_HERE);
+  here.settle();
+  here.add(middle(5, 0), MICROTIN_PRIORITY_SOON);
+  here.settle();
+  const uint32_t reads_of_tile = here.card.reads / 2;
+  here.add(middle(2, 0), MICROTIN_PRIORITY_OTHER);
+  for (int i = 0; i < 40 && !here.knows(middle(2, 0)); ++i) here.serve();
+  CHECK(here.knows(middle(2, 0)));
+  CHECK(!here.knows(middle(5, 0)));
+  CHECK(here.card.reads <= 4 * reads_of_tile);
+}
+
+TEST_CASE("requests: what is missing comes before what is needed soon, also if that is in hand") {
+  Served<MeshSlots> here(4);
+  here.settle();
+  here.add(middle(5, 0), MICROTIN_PRIORITY_SOON);
+  for (int i = 0; i < 3; ++i) here.serve(1);
+  here.add(middle(2, 0), MICROTIN_PRIORITY_OTHER);
+  while (!here.knows(middle(2, 0))) {
+    REQUIRE(microtin_requests_pending(&here.requests) == 1);
+    here.serve(20);
+  }
+  CHECK(!here.knows(middle(5, 0)));
+  CHECK(microtin_requests_pending(&here.requests) == 0);
+  here.settle();
+  CHECK(here.knows(middle(5, 0)));
+  // Places that are needed soon leave their room to others, and take none from these.
+  for (uint32_t x = 0; x < 6; ++x) here.add(middle(x, 4), MICROTIN_PRIORITY_SOON);
+  CHECK(here.add(middle(6, 4), MICROTIN_PRIORITY_SOON) == MICROTIN_STATUS_TOO_BIG);
+  for (uint32_t x = 0; x < 6; ++x) {
+    CHECK(here.add(middle(x, 5), MICROTIN_PRIORITY_OTHER) == MICROTIN_STATUS_OK);
+    CHECK(here.add(middle(x, 5), MICROTIN_PRIORITY_SOON) == MICROTIN_STATUS_OK);
+  }
+  CHECK(here.add(middle(6, 4), MICROTIN_PRIORITY_SOON) == MICROTIN_STATUS_TOO_BIG);
+  CHECK(microtin_requests_working_set(&here.requests) >= 6);
+}
+
 TEST_CASE("requests: turns bound what is read") {
   Served<MeshSlots> here(2);
   here.add(middle(0, 0), MICROTIN_PRIORITY_HERE);
@@ -234,7 +300,7 @@ TEST_CASE("requests: a card that fails, arguments, and the wrong kind of pack") 
   Served<MeshSlots> here(4);
   CHECK(microtin_requests_pending(&here.requests) == 1);
   CHECK(here.add(middle(1, 1), MICROTIN_PRIORITY_OTHER) == MICROTIN_STATUS_NEED_INPUT);
-  CHECK(here.add(middle(1, 1), 3) == MICROTIN_STATUS_ARGUMENT);
+  CHECK(here.add(middle(1, 1), 4) == MICROTIN_STATUS_ARGUMENT);
   CHECK(here.add({0, 0, int64_t{1} << 24, 0}, 0) == MICROTIN_STATUS_ARGUMENT);
   CHECK(microtin_requests_add(&here.requests, nullptr, 0) == MICROTIN_STATUS_ARGUMENT);
   CHECK(microtin_requests_working_set(&here.requests) == 0);

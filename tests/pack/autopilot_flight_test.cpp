@@ -86,13 +86,15 @@ TEST_CASE("autopilot flight: four slots know the own place and home, with few re
 
 TEST_CASE("autopilot flight: nine slots, or sixteen small ones, answer all questions" * kSlow) {
   const AutopilotFlight flight = flight_over_cell(kCorner);
-  for (const bool is_small : {false, true}) {
-    Vehicle vehicle(is_small ? cell_pack(28, 150) : cell_pack(64, 500), is_small ? 16 : 9,
-                    is_small ? 150 : 500, 200);
-    microtin_ardupilot_set_home(&vehicle.terrain, 436250000, 71250000);
-    const FlightShares shares = flight.fly(vehicle);
-    CHECK(shares.percent_of_all() >= 99.5);
-    CHECK(vehicle.reads() <= 2000);
+  for (const uint32_t steps : {20u, 200u}) {
+    for (const bool is_small : {false, true}) {
+      Vehicle vehicle(is_small ? cell_pack(28, 150) : cell_pack(64, 500), is_small ? 16 : 9,
+                      is_small ? 150 : 500, steps);
+      microtin_ardupilot_set_home(&vehicle.terrain, 436250000, 71250000);
+      const FlightShares shares = flight.fly(vehicle);
+      CHECK(shares.percent_of_all() >= 99.5);
+      CHECK(vehicle.reads() <= 2000);
+    }
   }
 }
 

@@ -247,8 +247,8 @@ void microtin_decoder_stop_after_phase(microtin_decoder* decoder, uint32_t phase
 /* Decodes from the next `size` bytes of the stream, at most `step_limit` work units (0: no limit).
  * A work unit visits at most nine triangles and inserts at most one vertex. One that inserts a
  * vertex counts as two or three in turn, because it takes about as many times the instructions; a
- * call does at least one. (The work unit that begins a phase also clears two bits a vertex. Bytes of
- * the header, and bytes after an error, cost no work units.) *used is how many bytes were taken.
+ * call does at least one. (The work unit that begins a phase also clears two bits a vertex. Bytes
+ * of the header, and bytes after an error, cost no work units.) *used is how many bytes were taken.
  *
  * - NEED_INPUT: all bytes were taken; pass the following ones
  * - STEP_LIMIT: call again with the bytes that were not taken

@@ -9,6 +9,8 @@
  * - A tile that queries use counts as serving another place, for as long as they use it.
  * - Other places take turns if there is no room for their tiles: at most once in
  *   MICROTIN_REQUEST_TURN services a tile in use gives way to another one.
+ * - A place that will be queried soon is loaded when nothing else is missing, into a slot that
+ *   serves no request.
  *
  * Interrupts: microtin_requests_add may interrupt microtin_requests_load at any moment, as queries
  * may (pack.h), but not itself. The pack is loaded by microtin_requests_load alone. Nothing here
@@ -37,18 +39,20 @@ extern "C" {
 typedef enum microtin_priority {
   MICROTIN_PRIORITY_HERE,  /* the own place; the pack keeps one */
   MICROTIN_PRIORITY_AHEAD, /* where the vehicle goes; the pack keeps one */
-  MICROTIN_PRIORITY_OTHER  /* every other place; MICROTIN_MAX_REQUESTS - 2 of them */
+  MICROTIN_PRIORITY_OTHER, /* every other place; MICROTIN_MAX_REQUESTS - 2 of them */
+  MICROTIN_PRIORITY_SOON   /* a place that will be an other one; gives way to these */
 } microtin_priority;
 
 /* A request: the requests' own. */
 typedef struct microtin_request {
   microtin_segment segment;
   volatile uint8_t is_set;
-  volatile uint8_t version; /* changes with the segment */
-  uint8_t served;           /* the version of which all was loaded */
-  volatile uint8_t age;     /* services since it was requested last */
-  uint8_t rest;             /* services until what could not be loaded is tried again */
-  uint16_t waits;           /* services since it was requested first */
+  volatile uint8_t version;  /* changes with the segment */
+  uint8_t served;            /* the version of which all was loaded */
+  volatile uint8_t age;      /* services since it was requested last */
+  uint8_t rest;              /* services until what could not be loaded is tried again */
+  volatile uint8_t priority; /* of requests behind the first two: OTHER or SOON */
+  uint16_t waits;            /* services since it was requested first */
 } microtin_request;
 
 /* The requests of a pack. All members are the requests' own. */
@@ -67,22 +71,23 @@ void microtin_requests_init(microtin_requests* requests, microtin_pack* pack);
 
 /* Requests the tiles that a segment touches. HERE and AHEAD replace the request of that priority.
  * An OTHER one replaces one that begins in the same tile; if there is no room, it is dropped, so
- * request again what is still missing. `priority` is a microtin_priority. O(MICROTIN_MAX_REQUESTS).
+ * request again what is still missing. A SOON one never replaces an OTHER one, and is dropped if no
+ * slot is free for it. `priority` is a microtin_priority. O(MICROTIN_MAX_REQUESTS).
  *
  * - OK
  * - ARGUMENT: a null pointer, no priority, or a segment that is too long
- * - NEED_INPUT: an OTHER place before the header is loaded; it is dropped
- * - TOO_BIG: there is no room for another OTHER place */
+ * - NEED_INPUT: an OTHER or SOON place before the header is loaded; it is dropped
+ * - TOO_BIG: there is no room for another OTHER or SOON place */
 microtin_status microtin_requests_add(microtin_requests* requests, const microtin_segment* segment,
                                       uint32_t priority);
 
 /* Returns how many requests are not loaded, as the last service found them; 1 if the header is not
- * loaded. */
+ * loaded. SOON requests do not count: services without pending requests load them. */
 uint32_t microtin_requests_pending(const microtin_requests* requests);
 
 /* Returns how many slots the requests need at the same time: tiles that are loaded and in use, and
- * tiles that are missing. More than the pack has slots: some places take turns. Counts up to 32
- * missing tiles. Call it where microtin_requests_load is called. */
+ * tiles that are missing, without those of SOON requests. More than the pack has slots: some places
+ * take turns. Counts up to 32 missing tiles. Call it where microtin_requests_load is called. */
 uint32_t microtin_requests_working_set(const microtin_requests* requests);
 
 /* Chooses which segment to load now; microtin_requests_load calls it once for each service.

@@ -11,10 +11,10 @@ namespace microtin::bench {
 // Writes a synthetic terrain as a cell of SRTM, an .hgt.
 void write_cell(const std::string& path);
 
-// The source, a raster in degrees; its pack; its grids every 30, 30 and 100 m, named after the
-// cell. `callgrind` is as for instructions().
+// The source, a raster in degrees; its pack, and one of small tiles; its grids every 30, 30 and
+// 100 m, named after the cell. `callgrind` is as for instructions().
 struct AutopilotFiles {
-  std::string callgrind, terrain, pack, inav, ardupilot_30, ardupilot_100;
+  std::string callgrind, terrain, pack, small_pack, inav, ardupilot_30, ardupilot_100;
 };
 void print_autopilots(const AutopilotFiles& files);
 

@@ -1,5 +1,5 @@
-/* SPDX-License-Identifier: MIT
- * What the test needs of FreeRTOS on a host. */
+// SPDX-License-Identifier: MIT
+/* What the test needs of FreeRTOS on a host. */
 #ifndef MICROTIN_TESTS_CHECKOUTS_FREERTOS_CONFIG_H
 #define MICROTIN_TESTS_CHECKOUTS_FREERTOS_CONFIG_H
 

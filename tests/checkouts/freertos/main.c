@@ -1,5 +1,5 @@
-/* SPDX-License-Identifier: MIT
- * A task of FreeRTOS loads tiles, and another one queries heights: of higher priority, or, with
+// SPDX-License-Identifier: MIT
+/* A task of FreeRTOS loads tiles, and another one queries heights: of higher priority, or, with
  * EQUAL_PRIORITY, of the same one, with the hooks of microtin_config.h. */
 #include "FreeRTOS.h"
 #include "task.h"

@@ -1,5 +1,5 @@
-/* SPDX-License-Identifier: MIT
- * The hooks that decoder/docs/rtos.md names for tasks of equal priority. */
+// SPDX-License-Identifier: MIT
+/* The hooks that decoder/docs/rtos.md names for tasks of equal priority. */
 #ifndef MICROTIN_TESTS_CHECKOUTS_FREERTOS_MICROTIN_CONFIG_H
 #define MICROTIN_TESTS_CHECKOUTS_FREERTOS_MICROTIN_CONFIG_H
 
