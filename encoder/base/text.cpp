@@ -49,7 +49,7 @@ std::string lower_case(std::string text) {
 }
 
 std::string suffix_of(const std::string& path) {
-  return lower_case(std::filesystem::path(path).extension().string());
+  return lower_case(std::filesystem::u8path(path).extension().string());
 }
 
 namespace {

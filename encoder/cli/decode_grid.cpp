@@ -23,11 +23,12 @@ namespace fs = std::filesystem;
 class SystemFile {
  public:
   SystemFile(const std::string& grid, const Metadata& metadata)
-      : path_(fs::path(grid).replace_extension(".prj").string()), code_(metadata.horizontal_epsg) {
+      : path_(fs::u8path(grid).replace_extension(".prj").string()),
+        code_(metadata.horizontal_epsg) {
     const std::string text = system_text(metadata);
     if (!text.empty()) {
       out_.emplace(path_).write(text);
-    } else if (std::error_code none; fs::exists(path_, none)) {
+    } else if (std::error_code none; fs::exists(fs::u8path(path_), none)) {
       warning_ = warning(path_ + " lies next to the grid, but is not its coordinate system");
     } else if (code_ != 0) {
       const std::string code = "EPSG:" + std::to_string(code_);

@@ -28,7 +28,7 @@ void run_embed(const std::string& input, const std::string& output) {
   refuse_overwriting({input}, output);
   const Document document(input);
   const std::string name =
-      output == "-" ? "terrain" : std::filesystem::path(output).stem().string();
+      output == "-" ? "terrain" : std::filesystem::u8path(output).stem().string();
   OutputFile out(output);
   out.write(source_of(document, name));
   out.commit();

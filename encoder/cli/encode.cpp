@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The commands encode, plan, update and merge: streams and packs from a terrain, and what to say of
 // them.
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -16,6 +14,7 @@
 #include "encoder/cli/progress.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/exact/units.hpp"
+#include "encoder/files/descriptors.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/import/cloud.hpp"
 #include "encoder/import/prepared_terrain.hpp"
@@ -31,6 +30,8 @@
 
 namespace microtin::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::vector<std::string> inputs_of(const EncodeRequest& request) {
   return files_of(request.input, request.preparation);
@@ -275,8 +276,7 @@ void announce_memory(const EncodeRequest& request) {
   for (const std::string& file : inputs_of(request)) points += points_expected(file);
   const double bytes = static_cast<double>(points) * (makes_pack(request) ? kOfPack : kOfStream);
   if (bytes < kGigabyte) return;
-  const double machine =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const auto machine = static_cast<double>(machine_memory());
   char text[160];
   std::snprintf(text, sizeof text,
                 "about %.0f points take about %.2g GB of memory; this machine has %.2g GB",
@@ -299,7 +299,7 @@ void expect_own_resume_file(const EncodeRequest& request) {
   if (request.resume.empty()) return;
   refuse_overwriting(inputs_of(request), request.resume);
   const auto full = [](const std::string& path) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+    return fs::weakly_canonical(fs::absolute(fs::u8path(path)));
   };
   if (full(request.resume) != full(request.output)) return;
   throw Error(request.resume + ": is also the output; name another file for --resume");
@@ -317,7 +317,7 @@ void run_encode(const EncodeRequest& request) {
   deliver(out, request.output,
           makes_pack(request) ? encode_tiled(request, out) : encode_whole(request, out));
   std::error_code none;
-  if (!request.resume.empty()) std::filesystem::remove(request.resume, none);
+  if (!request.resume.empty()) fs::remove(fs::u8path(request.resume), none);
 }
 
 void run_plan(const EncodeRequest& request, uint32_t shards) {

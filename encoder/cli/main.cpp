@@ -2,11 +2,11 @@
 // The program: it reads its command line, runs the command, and reports failures.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/text.hpp"
@@ -44,11 +44,12 @@ int fail(const char* text, int code) {
   return code;
 }
 
-int run(int argc, char** argv) {
+int run(const std::vector<std::string>& arguments) {
   CLI::App app("Terrain TINs for microcontrollers");
   app.formatter_fn([](const CLI::App* shown, const std::string&, CLI::AppFormatMode) {
     return help_page(*shown);
   });
+  app.allow_windows_style_options(false);  // a slash begins a name
   app.set_help_flag("-h,--help", "Print this page");
   Action action;
   int code = 0;
@@ -73,9 +74,12 @@ int run(int argc, char** argv) {
   add_help(app, action);
   add_documents(app, action);
   try {
-    app.parse(argc, argv);
+    std::vector<const char*> texts;
+    texts.reserve(arguments.size());
+    for (const std::string& argument : arguments) texts.push_back(argument.c_str());
+    app.parse(static_cast<int>(texts.size()), texts.data());
   } catch (const CLI::ParseError& error) {
-    if (argc <= 1) {
+    if (arguments.size() <= 1) {
       std::fputs(app.help().c_str(), stderr);
       return kUsage;
     }
@@ -99,11 +103,11 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   namespace cli = microtin::cli;
   if (!cli::hold_closed_standard_files()) return cli::kFailed;
-  for (const int ignored : {SIGXFSZ, SIGPIPE}) std::signal(ignored, SIG_IGN);  // errors like others
+  cli::make_signals_errors();
   cli::remove_leftovers_on_signals();
   cli::allow_many_open_files();
   try {
-    return cli::run(argc, argv);
+    return cli::run(cli::program_arguments(argc, argv));
   } catch (const std::bad_alloc&) {
     return cli::fail("not enough memory", cli::kFailed);
   } catch (const cli::ReportLost& lost) {

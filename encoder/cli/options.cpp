@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "encoder/cli/options.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
@@ -26,8 +24,8 @@ constexpr const char* kTerrainFiles =
 
 // Other names of standard output are "-" for all that follows, unless a suffix asks for a format.
 std::string plain_output(const std::string& path) {
-  const bool is_plain = std::filesystem::path(path).extension().empty();
-  return is_plain && descriptor_named(path) == STDOUT_FILENO ? "-" : path;
+  const bool is_plain = std::filesystem::u8path(path).extension().empty();
+  return is_plain && descriptor_named(path) == kStandardOutput ? "-" : path;
 }
 
 template <class Number>

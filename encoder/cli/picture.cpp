@@ -53,7 +53,7 @@ constexpr uint32_t kFlatWidth = 512;  // of the picture for browsers that cannot
 constexpr const char *kPage = ".html", *kDrawing = ".svg";
 
 std::string world_path(const std::string& picture) {
-  return std::filesystem::path(picture).replace_extension(".pgw").string();
+  return std::filesystem::u8path(picture).replace_extension(".pgw").string();
 }
 
 void expect_picture(const RenderRequest& request) {
@@ -85,7 +85,7 @@ void write_page(const RenderRequest& request, const Document& document, const Po
                 ".png or .svg file");
   }
   const std::string page = with_file_context(request.input, [&] {
-    return render_page(portrait, std::filesystem::path(request.input).stem().string(),
+    return render_page(portrait, std::filesystem::u8path(request.input).stem().string(),
                        content_of(document), render_png(portrait, kFlatWidth));
   });
   OutputFile out(request.output);

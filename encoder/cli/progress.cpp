@@ -2,14 +2,14 @@
 // Draws the bar, at most ten times a second.
 #include "encoder/cli/progress.hpp"
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <string>
 
+#include "encoder/files/descriptors.hpp"
+
 namespace microtin::cli {
 
-ProgressBar::ProgressBar() : on_terminal_(isatty(STDERR_FILENO) != 0) {}
+ProgressBar::ProgressBar() : on_terminal_(errors_go_to_terminal()) {}
 
 ProgressBar::~ProgressBar() {
   if (drawn_) std::fputs("\r\033[K", stderr);

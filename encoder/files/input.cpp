@@ -2,10 +2,6 @@
 // Reading: whole files, pieces of files that need not fit into memory, and numbers out of them.
 #include "encoder/files/input.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -16,6 +12,7 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
+#include "encoder/files/file_access.hpp"
 
 namespace microtin::files {
 
@@ -25,7 +22,7 @@ std::string read_file(const std::string& path) {
   };
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(nullptr, &std::fclose);
   if (path != "-") {
-    opened.reset(std::fopen(path.c_str(), "rb"));
+    opened.reset(open_stream(path, "rb"));
     if (!opened) fail();
   }
   std::FILE* file = opened ? opened.get() : stdin;
@@ -45,20 +42,17 @@ namespace {
 
 class FileBytes : public ByteSource {
  public:
-  explicit FileBytes(const std::string& path)
-      : path_(path), file_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+  explicit FileBytes(const std::string& path) : path_(path), file_(open_to_read(path)) {
     if (file_ < 0) fail();
-    struct stat status {};
-    const bool is_known = fstat(file_, &status) == 0;
-    if (is_known && S_ISREG(status.st_mode)) {
-      size_ = static_cast<uint64_t>(status.st_size);
-      return;
-    }
-    close(file_);
+    FileState state;
+    const bool is_known = examine(file_, state);
+    size_ = state.size;
+    if (is_known && state.is_regular) return;
+    close_file(file_);
     if (!is_known) fail();
     throw Error(path + ": cannot be read in pieces; copy it into a regular file");
   }
-  ~FileBytes() override { close(file_); }
+  ~FileBytes() override { close_file(file_); }
   FileBytes(const FileBytes&) = delete;
   FileBytes& operator=(const FileBytes&) = delete;
 
@@ -67,9 +61,8 @@ class FileBytes : public ByteSource {
   std::size_t read(uint64_t offset, void* to, std::size_t size) const override {
     std::size_t done = 0;
     while (done < size) {
-      const ssize_t taken = pread(file_, static_cast<char*>(to) + done, size - done,
-                                  static_cast<off_t>(offset + done));
-      if (taken < 0 && errno == EINTR) continue;
+      const int64_t taken =
+          read_at(file_, offset + done, static_cast<char*>(to) + done, size - done);
       if (taken < 0) fail();
       if (taken == 0) break;
       done += static_cast<std::size_t>(taken);
@@ -112,7 +105,7 @@ std::unique_ptr<ByteSource> open_file(const std::string& path) {
 
 bool is_regular_file(const std::string& path) {
   std::error_code ignored;  // what cannot be examined is no such file
-  return std::filesystem::is_regular_file(path, ignored);
+  return std::filesystem::is_regular_file(std::filesystem::u8path(path), ignored);
 }
 
 std::unique_ptr<ByteSource> bytes_in_memory(std::vector<uint8_t> bytes) {

@@ -2,10 +2,6 @@
 // Output that appears complete or not at all, what its name leads to, and streams that wait for it.
 #include "encoder/files/output.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -15,6 +11,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/files/descriptors.hpp"
+#include "encoder/files/file_access.hpp"
 #include "encoder/files/leftovers.hpp"
 
 namespace microtin::files {
@@ -22,17 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMostLinks = 40;  // as the system's own
-
-// Whether the names in a folder are numbers of this process's descriptors.
-bool lists_descriptors(const fs::path& folder) {
-  std::error_code ignored;  // what is not there is not the same
-  const fs::path real = fs::canonical(folder, ignored);
-  if (real.empty()) return false;
-  for (const char* const known : {"/proc/self/fd", "/proc/thread-self/fd", "/dev/fd"}) {
-    if (fs::canonical(known, ignored) == real) return true;
-  }
-  return false;
-}
 
 std::optional<int> number_of_descriptor(const fs::path& path) {
   const std::string name = path.filename().string();
@@ -46,7 +32,7 @@ std::optional<int> number_of_descriptor(const fs::path& path) {
 
 // The name behind links, as far as a descriptor: where that leads is not for us to open.
 fs::path behind_links(const std::string& path) {
-  fs::path target = path;
+  fs::path target = fs::u8path(path);
   std::error_code ignored;  // what cannot be examined is no link, and cannot be opened
   for (int links = 0; fs::is_symlink(fs::symlink_status(target, ignored)); ++links) {
     if (number_of_descriptor(target)) break;
@@ -60,17 +46,17 @@ fs::path behind_links(const std::string& path) {
 }
 
 // What a name stands for if that is a regular file.
-std::optional<struct stat> regular_file(const std::string& path, int standard) {
-  struct stat status {};
-  const int result = path == "-" ? fstat(standard, &status) : stat(path.c_str(), &status);
-  if (result != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
-  return status;
+std::optional<FileState> regular_file(const std::string& path, int standard) {
+  FileState state;
+  const bool is_known = path == "-" ? examine(standard, state) : examine(path, state);
+  if (!is_known || !state.is_regular) return std::nullopt;
+  return state;
 }
 
 }  // namespace
 
 std::optional<int> descriptor_named(const std::string& path) {
-  if (path == "-") return STDOUT_FILENO;
+  if (path == "-") return kStandardOutput;
   return number_of_descriptor(behind_links(path));
 }
 
@@ -78,55 +64,41 @@ std::optional<std::string> replaced_by(const std::string& path) {
   if (descriptor_named(path)) return std::nullopt;
   const std::string target = behind_links(path).string();
   std::error_code ignored;  // a target that cannot be examined is one that cannot be opened
-  const fs::file_status status = fs::status(target, ignored);
-  if (fs::is_directory(status)) throw Error(path + ": is a directory");
-  if (fs::exists(status) && !fs::is_regular_file(status)) return std::nullopt;
+  if (fs::is_directory(fs::u8path(target), ignored)) throw Error(path + ": is a directory");
+  FileState state;
+  if (examine(target, state) && !state.is_regular) return std::nullopt;
   return target;
 }
 
 void refuse_overwriting(const std::vector<std::string>& inputs, const std::string& output) {
   for (const std::string& written : {output, std::string("-")}) {
-    const std::optional<struct stat> target = regular_file(written, STDOUT_FILENO);
+    const std::optional<FileState> target = regular_file(written, kStandardOutput);
     for (const std::string& input : inputs) {
-      const std::optional<struct stat> source = regular_file(input, STDIN_FILENO);
+      const std::optional<FileState> source = regular_file(input, kStandardInput);
       if (!target || !source) continue;
-      if (source->st_dev != target->st_dev || source->st_ino != target->st_ino) continue;
+      if (source->volume != target->volume || source->number != target->number) continue;
       throw Error((written == "-" ? "standard output" : written) +
                   ": is also an input; choose another output");
     }
   }
 }
 
-namespace {
-
-constexpr mode_t kPrivate = 0600, kUsual = 0666, kAllBits = 07777;
-
-// Owner, if we may and a container knows it, and mode. What is private was so from the first byte
-// on.
-bool take_after(int file, const struct stat& old) {
-  const bool has_owner = fchown(file, old.st_uid, old.st_gid) == 0;
-  if (!has_owner && errno != EPERM && errno != EINVAL) return false;
-  return fchmod(file, old.st_mode & kAllBits) == 0;
-}
-
-}  // namespace
-
 std::FILE* stream_of(int file, const char* mode) {
   std::FILE* const stream = file < 0 ? nullptr : fdopen(file, mode);
   if (stream == nullptr && file >= 0) {
     const int error = errno;
-    close(file);
+    close_file(file);
     errno = error;
   }
   return stream;
 }
 
-int open_new(std::string& name, int access, mode_t mode) {
+int open_new(std::string& name, NewFile kind) {
   constexpr int kMostLeftovers = 1000;
-  const std::string stem = name + std::to_string(getpid());
+  const std::string stem = name + std::to_string(process_number());
   name = stem;
   for (int i = 0;; ++i) {
-    const int file = open(name.c_str(), access | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    const int file = create_file(name, kind);
     if (file >= 0 || errno != EEXIST || i == kMostLeftovers) return file;
     name = stem + '-' + std::to_string(i);
   }
@@ -139,28 +111,28 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
     return;
   }
   const std::optional<int> descriptor = descriptor_named(path);
-  if (descriptor == STDOUT_FILENO) {
+  if (descriptor == kStandardOutput) {
     file_ = stdout;
   } else if (descriptor) {
-    file_ = stream_of(fcntl(*descriptor, F_DUPFD_CLOEXEC, 0), "wb");
+    file_ = stream_of(duplicate(*descriptor), "wb");
   } else {
-    file_ = stream_of(open(path.c_str(), O_WRONLY | O_CLOEXEC), "wb");
+    file_ = stream_of(open_to_write(path), "wb");
   }
   if (file_ == nullptr) fail();
 }
 
 void OutputFile::open_temporary() {
   std::string name = target_ + ".part-";
-  struct stat old {};
-  const bool replaces = stat(target_.c_str(), &old) == 0;
+  FileState old;
+  const bool replaces = examine(target_, old);
   const SignalsHeld held;
-  const int file = open_new(name, O_WRONLY, replaces ? kPrivate : kUsual);
+  const int file = open_new(name, replaces ? NewFile::kPrivate : NewFile::kUsual);
   if (file < 0) fail();
   file_ = stream_of(file, "wb");
   if (file_ == nullptr || (replaces && !take_after(file, old))) {
     const int error = errno;
     if (file_ != nullptr) std::fclose(file_);
-    std::remove(name.c_str());
+    remove_file(name);
     errno = error;
     fail();
   }
@@ -170,7 +142,7 @@ void OutputFile::open_temporary() {
 
 OutputFile::~OutputFile() {
   if (file_ != nullptr && file_ != stdout) std::fclose(file_);
-  if (!temporary_.empty()) std::remove(temporary_.c_str());
+  if (!temporary_.empty()) remove_file(temporary_);
 }
 
 void OutputFile::write(std::string_view bytes) {
@@ -185,7 +157,7 @@ void OutputFile::commit() {
   file_ = nullptr;
   if (std::fclose(file) != 0) fail();
   if (temporary_.empty()) return;
-  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail();
+  if (!replace_file(temporary_, target_)) fail();
   leftover_.reset();
   temporary_.clear();
 }
@@ -201,12 +173,10 @@ namespace {
 
 std::FILE* open_nameless(const std::string& output) {
   const std::optional<std::string> target = replaced_by(output);
-  if (!target) return std::tmpfile();
+  if (!target) return open_temporary_stream();
   std::string name = *target + ".streams-";
   const SignalsHeld held;
-  const int number = open_new(name, O_RDWR, 0600);
-  if (number >= 0) std::remove(name.c_str());
-  return stream_of(number, "w+b");
+  return stream_of(open_new(name, NewFile::kNameless), "w+b");
 }
 
 }  // namespace
@@ -254,7 +224,7 @@ void StreamSpool::copy_to(OutputFile& out) {
 }
 
 void StreamSpool::go_to(uint64_t offset) {
-  if (fseeko(file_.get(), static_cast<off_t>(offset), SEEK_SET) != 0) fail();
+  if (!seek_to(file_.get(), offset)) fail();
 }
 
 void StreamSpool::fail() const {

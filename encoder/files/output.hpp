@@ -3,8 +3,6 @@
 #ifndef MICROTIN_ENCODER_FILES_OUTPUT_HPP
 #define MICROTIN_ENCODER_FILES_OUTPUT_HPP
 
-#include <sys/types.h>
-
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -14,6 +12,7 @@
 #include <vector>
 
 #include "encoder/base/error.hpp"
+#include "encoder/files/file_access.hpp"
 #include "encoder/files/leftovers.hpp"
 #include "encoder/files/stream_places.hpp"
 #include "encoder/layers.hpp"
@@ -43,7 +42,8 @@ struct NobodyReads : Error {
 
 // Writes to a temporary next to the target, which takes the target's place on commit() and
 // disappears without it, also when a signal ends the program. The target is what a link leads to,
-// also if there is nothing yet; a file that was there hands on its mode. "-" is standard output,
+// also if there is nothing yet; a file that was there hands on its mode. (On Windows the target is
+// the link, and the folder decides who may read.) "-" is standard output,
 // as is /dev/stdout; descriptors, devices and pipes are written directly and keep what they hold.
 // All throw Error naming the output.
 class OutputFile {
@@ -71,10 +71,10 @@ class OutputFile {
   std::FILE* file_ = nullptr;
 };
 
-// Opens a new file, for reading too if `access` says so, named `name` and the process; another
-// number follows where a file has that name, left by a process that was killed. `name` becomes what
-// it is called; -1 with errno if there is none.
-int open_new(std::string& name, int access, mode_t mode);
+// Opens a new file, named `name` and the process; another number follows where a file has that
+// name, left by a process that was killed. `name` becomes what it is called; -1 with errno if there
+// is none.
+int open_new(std::string& name, NewFile kind);
 
 // A stream on a descriptor, which it then owns; null with errno if it cannot be, or there is none.
 std::FILE* stream_of(int file, const char* mode);

@@ -23,7 +23,7 @@ std::string_view trimmed(std::string_view line) {
 void add_line(std::string_view line, const std::filesystem::path& folder, CellList& list) {
   if (line.empty() || line[0] == '#') return;
   if (line.substr(0, kSea.size()) != kSea) {
-    list.files.push_back((folder / line).string());
+    list.files.push_back((folder / std::filesystem::u8path(line)).string());
     return;
   }
   const std::string name(trimmed(line.substr(kSea.size())));
@@ -36,7 +36,7 @@ void add_line(std::string_view line, const std::filesystem::path& folder, CellLi
 
 CellList read_cell_list(const std::string& path) {
   const std::string content = read_file(path);
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  const std::filesystem::path folder = std::filesystem::u8path(path).parent_path();
   CellList list;
   size_t number = 0;
   for (std::string_view rest = without_mark(content); !rest.empty();) {

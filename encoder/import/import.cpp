@@ -17,6 +17,8 @@ namespace microtin::importing {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 bool is_text_of_points(const std::string& suffix) {
   return suffix == ".xyz" || suffix == ".csv" || suffix == ".txt";
 }
@@ -35,9 +37,9 @@ bool is_grid_file(const std::string& path) {
 std::string system_file_of(const std::string& path) {
   if (!is_grid_file(path)) return "";
   for (const char* const suffix : {".prj", ".PRJ"}) {
-    const std::filesystem::path file = std::filesystem::path(path).replace_extension(suffix);
+    const fs::path file = fs::u8path(path).replace_extension(suffix);
     std::error_code none;
-    if (std::filesystem::is_regular_file(file, none)) return file.string();
+    if (fs::is_regular_file(file, none)) return file.string();
   }
   return "";
 }
@@ -111,7 +113,7 @@ bool is_for_others(const std::string& path) {
 // GDAL has names of its own, and folders. Pipes and devices it refuses in words that help nobody.
 Source import_other(const std::string& path, Indirect indirect, uint32_t band) {
   std::error_code none;
-  if (std::filesystem::exists(path, none) && !std::filesystem::is_directory(path, none)) {
+  if (fs::exists(fs::u8path(path), none) && !fs::is_directory(fs::u8path(path), none)) {
     open_file(path);  // throws Error if it cannot be read in pieces
   }
   return import_gdal(path, indirect, band);

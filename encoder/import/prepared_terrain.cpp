@@ -37,7 +37,7 @@ std::string counted(const std::string& suffix) {
 FilesBySuffix terrain_files_in(const std::string& folder) {
   FilesBySuffix by_suffix;
   std::error_code error;
-  const fs::directory_iterator entries(folder, error);
+  const fs::directory_iterator entries(fs::u8path(folder), error);
   if (error) throw Error(folder + ": cannot be read: " + error.message());
   for (const auto& entry : entries) {
     const std::string path = entry.path().string(), suffix = suffix_of(path);
@@ -58,7 +58,7 @@ FilesBySuffix::const_iterator most_of(const FilesBySuffix& files) {
 
 std::vector<std::string> files_in(const std::string& path) {
   std::error_code none;
-  if (!fs::is_directory(path, none)) return {path};
+  if (!fs::is_directory(fs::u8path(path), none)) return {path};
   const FilesBySuffix by_suffix = terrain_files_in(path);
   if (by_suffix.empty()) throw Error(path + ": holds no terrain file: " + terrain_kinds());
   std::vector<std::string> files = most_of(by_suffix)->second;
@@ -68,7 +68,7 @@ std::vector<std::string> files_in(const std::string& path) {
 
 std::string left_out_of(const std::string& path) {
   std::error_code none;
-  if (!fs::is_directory(path, none)) return "";
+  if (!fs::is_directory(fs::u8path(path), none)) return "";
   const FilesBySuffix by_suffix = terrain_files_in(path);
   if (by_suffix.size() < 2) return "";
   const auto most = most_of(by_suffix);

@@ -10,10 +10,13 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
+#include "encoder/files/file_access.hpp"
 #include "encoder/stream/header.hpp"
 
 namespace microtin::pack {
 namespace {
+
+namespace fs = std::filesystem;
 
 using Bytes = std::vector<uint8_t>;
 
@@ -311,10 +314,10 @@ TileLog::TileLog(const std::string& path, const PackPlan& plan, const PackConten
                  TileRange range, const Take& take)
     : path_(path), next_(range.first), file_(nullptr, &std::fclose) {
   const Bytes start = write_start(plan, pack, range);
-  const bool is_there = std::filesystem::exists(path);
+  const bool is_there = fs::exists(fs::u8path(path));
   const uint64_t whole = is_there ? read(start, range, take) : 0;
-  if (is_there) std::filesystem::resize_file(path, whole);
-  file_.reset(std::fopen(path.c_str(), "ab"));
+  if (is_there) fs::resize_file(fs::u8path(path), whole);
+  file_.reset(open_stream(path, "ab"));
   if (file_ == nullptr) fail_to_write(path);
   if (whole == 0) write(start);
 }
@@ -358,11 +361,11 @@ void TileLog::add(const EncodedTile& tile) {
 void TileLog::remove() {
   file_.reset();
   std::error_code none;
-  std::filesystem::remove(path_, none);
+  fs::remove(fs::u8path(path_), none);
 }
 
 std::optional<uint32_t> logged_tile_size(const std::string& path) {
-  if (!std::filesystem::exists(path)) return std::nullopt;
+  if (!fs::exists(fs::u8path(path))) return std::nullopt;
   try {
     const TileGrid grid = read_content(Shard(path).head()).grid;
     return std::max(grid.width, grid.height);

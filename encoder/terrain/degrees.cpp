@@ -85,7 +85,7 @@ std::optional<int> degrees(std::string_view text, char positive, char negative) 
 }  // namespace
 
 std::optional<DegreeCell> cell_of(const std::string& path) {
-  const std::string file = std::filesystem::path(path).filename().string();
+  const std::string file = std::filesystem::u8path(path).filename().string();
   const std::string_view name = std::string_view(file).substr(0, file.find_first_of("._"));
   if (name.size() != 7) return std::nullopt;
   const auto latitude = degrees(name.substr(0, 3), 'n', 's');
