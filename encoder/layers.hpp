@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The layers of the encoder: a folder and a namespace each. A layer includes exactly the layers
 // that it lists here, all of which stand above it; tests/includes checks that. Two folders have the
-// name of a keyword, so that their namespaces are called importing and exporting.
+// name of a keyword and one that of its function, so their namespaces are called importing,
+// exporting and verifying.
 #ifndef MICROTIN_ENCODER_LAYERS_HPP
 #define MICROTIN_ENCODER_LAYERS_HPP
 
@@ -23,7 +24,7 @@ using namespace base;
 }
 
 // A terrain before it is a TIN: rasters and point clouds, what is known about them, their voids and
-// water, how they lie on a lattice, and what a mesh makes of them.
+// water, how they lie on a lattice, and what a mesh holds.
 namespace terrain {
 using namespace base;
 using namespace exact;
@@ -44,6 +45,12 @@ using namespace exact;
 using namespace terrain;
 }  // namespace stream
 
+// Comparing a decoded terrain with its source: at posts and points, everywhere between, and water.
+namespace verifying {
+using namespace exact;
+using namespace terrain;
+}  // namespace verifying
+
 // Which vertices, and which heights: the fewest bytes that keep a bound.
 namespace fit {
 using namespace base;
@@ -59,6 +66,7 @@ using namespace exact;
 using namespace files;
 using namespace terrain;
 using namespace stream;
+using namespace verifying;
 using namespace fit;
 }  // namespace pack
 
@@ -70,6 +78,7 @@ using namespace files;
 using namespace terrain;
 using namespace importing;
 using namespace stream;
+using namespace verifying;
 using namespace pack;
 }  // namespace exporting
 
@@ -78,6 +87,7 @@ namespace picture {
 using namespace base;
 using namespace exact;
 using namespace terrain;
+using namespace verifying;
 using namespace exporting;
 }  // namespace picture
 
@@ -90,6 +100,7 @@ using namespace files;
 using namespace terrain;
 using namespace importing;
 using namespace stream;
+using namespace verifying;
 using namespace fit;
 using namespace pack;
 using namespace exporting;
@@ -103,6 +114,7 @@ using namespace files;
 using namespace terrain;
 using namespace importing;
 using namespace stream;
+using namespace verifying;
 using namespace exporting;
 using namespace picture;
 using namespace product;

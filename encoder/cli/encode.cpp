@@ -19,7 +19,6 @@
 #include "encoder/import/cloud.hpp"
 #include "encoder/import/prepared_terrain.hpp"
 #include "encoder/import/reference.hpp"
-#include "encoder/pack/tile_plan.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
 #include "encoder/product/pack_parts.hpp"
@@ -162,12 +161,10 @@ std::string pack_report(const PackReport& pack) {
 std::string settings(const PackReport& pack, Adapter adapter) {
   if (adapter == Adapter::kNone || pack.compact_bytes == 0) return "";
   const std::string name = adapter == Adapter::kInav ? "inav" : "ardupilot";
-  const uint32_t capacity = std::max<uint32_t>(pack.most_vertices, 3);
-  const uint64_t bytes = pack_ram(capacity, pack.compact_bytes, kAdapterTiles);
   return "for " + name + ": define MICROTIN_ADAPTERS_COMPACT; MICROTIN_COMPACT_PACK_BYTES(" +
-         std::to_string(kAdapterTiles) + ", " + std::to_string(capacity) + ", " +
+         std::to_string(kAdapterTiles) + ", " + std::to_string(slot_capacity(pack)) + ", " +
          std::to_string(pack.compact_bytes) + ") and microtin_" + name + " take " +
-         std::to_string(bytes + kAdapterBytes) + " bytes\n";
+         std::to_string(adapter_ram(pack)) + " bytes\n";
 }
 
 // Warns of values that may not be heights, before the work begins.

@@ -12,8 +12,8 @@
 #include "encoder/stream/device_memory.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/stream/header.hpp"
-#include "encoder/terrain/everywhere.hpp"
 #include "encoder/terrain/exact_query.hpp"
+#include "encoder/verify/everywhere.hpp"
 #include "microtin/compact_pack.h"
 #include "microtin/surface.hpp"
 

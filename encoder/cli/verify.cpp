@@ -6,7 +6,7 @@
 #include "encoder/cli/report.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/product/document.hpp"
-#include "encoder/terrain/everywhere.hpp"
+#include "encoder/verify/everywhere.hpp"
 
 namespace microtin::cli {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/export/scene.hpp"
-#include "encoder/terrain/everywhere.hpp"
+#include "encoder/verify/everywhere.hpp"
 #include "microtin/segment.h"
 
 namespace microtin::exporting {

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/terrain/everywhere.hpp"
 #include "encoder/terrain/exact_query.hpp"
-#include "encoder/terrain/water.hpp"
+#include "encoder/verify/everywhere.hpp"
+#include "encoder/verify/water_gauge.hpp"
 
 namespace microtin::pack {
 namespace {
@@ -88,7 +88,7 @@ KeptTiles::Tile KeptTiles::examined(uint32_t number) const {
   const Placement lattice = {part.x, part.y, changed_.lattice.placement.z};
   WaterGauge gauge(part.decimals, changed_.options.water_level);
   const Verification found =
-      verify(decoded->mesh(), lattice, part, bound_of(changed_), gauge.visitor());
+      verifying::verify(decoded->mesh(), lattice, part, bound_of(changed_), gauge.visitor());
   const Margins stated = old_.margins(number);
   Tile tile;
   tile.border = border_of(decoded->mesh(), sides);

@@ -16,7 +16,7 @@
 #include "encoder/pack/point_survey.hpp"
 #include "encoder/pack/point_tile.hpp"
 #include "encoder/pack/tile_plan.hpp"
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/verify.hpp"
 
 namespace microtin::pack {
 
@@ -253,8 +253,9 @@ Verification verify(const PackFile& pack, const PointCloud& cloud,
     const std::optional<DecodedTerrain> tile = pack.tile(number);
     if (!tile) return;
     const TileBox box = tile_box(grid, number);
-    parts[i] = verify(tile->mesh(), placement_from(placement, {box.x, box.y}), part_of(cloud, here),
-                      bound, visit ? visits[i].recorder(box.x, box.y) : PostVisitor());
+    parts[i] = verifying::verify(tile->mesh(), placement_from(placement, {box.x, box.y}),
+                                 part_of(cloud, here), bound,
+                                 visit ? visits[i].recorder(box.x, box.y) : PostVisitor());
     uint32_t hint = 0;
     for (const uint32_t point : here) {
       if (answers(tile->mesh(), box, places[point], &hint)) covered[i].push_back(point);

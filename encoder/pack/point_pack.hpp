@@ -11,7 +11,7 @@
 #include "encoder/pack/encode.hpp"
 #include "encoder/pack/file.hpp"
 #include "encoder/terrain/source.hpp"
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/verify.hpp"
 
 namespace microtin::pack {
 

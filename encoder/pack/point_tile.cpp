@@ -78,9 +78,9 @@ EncodedTile PointTiles::encode(uint32_t tile, const std::vector<uint32_t>& point
   auto [stream, decoded] =
       encode_and_decode(tin, Metadata(), tiled_.simplify.effort, origin_of(box));
   check_shared(decoded.mesh(), TileSides(tiled_.grid, box), borders_.of_tile(tile));
-  const Verification measured =
-      verify(decoded.mesh(), placement_from(tiled_.survey.lattice.placement, {box.x, box.y}),
-             part_of(tiled_.cloud, points), tiled_.lattice.max_error);
+  const Verification measured = verifying::verify(
+      decoded.mesh(), placement_from(tiled_.survey.lattice.placement, {box.x, box.y}),
+      part_of(tiled_.cloud, points), tiled_.lattice.max_error);
   if (!keeps_options(tiled_.lattice, measured, 0)) {
     throw InternalFault("a decoded tile does not meet the options");
   }

@@ -13,8 +13,8 @@
 #include "encoder/base/progress.hpp"
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/pack/borders.hpp"
-#include "encoder/terrain/everywhere.hpp"
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/everywhere.hpp"
+#include "encoder/verify/verify.hpp"
 
 namespace microtin::pack {
 namespace {
@@ -74,7 +74,8 @@ VerifiedTile verify_tile(const PackFile& pack, uint32_t number, const RasterRead
   const microtin_mesh* const mesh = tile ? tile->mesh() : nullptr;
   VerifiedTile verified;
   if (tile) {
-    verified.all = verify(mesh, {part.x, part.y, pack.metadata().placement.z}, part, bound,
+    verified.all =
+        verifying::verify(mesh, {part.x, part.y, pack.metadata().placement.z}, part, bound,
                           keeps_visits ? verified.visits.recorder(box.x, box.y) : PostVisitor());
     const Axis& z = pack.metadata().placement.z;
     verified.all.everywhere = measure_everywhere(mesh, {part.x, part.y, z}, part);

@@ -12,9 +12,9 @@
 #include "encoder/base/error.hpp"
 #include "encoder/pack/kept_tiles.hpp"
 #include "encoder/stream/encode.hpp"
-#include "encoder/terrain/everywhere.hpp"
 #include "encoder/terrain/exact_query.hpp"
-#include "encoder/terrain/water.hpp"
+#include "encoder/verify/everywhere.hpp"
+#include "encoder/verify/water_gauge.hpp"
 #include "shared/pack_format.hpp"
 #include "shared/predicates.hpp"
 
@@ -191,7 +191,8 @@ EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyO
     const std::optional<Decimal>& bound = tiled.options.max_error;
     WaterGauge gauge(part.decimals, bound ? tiled.options.water_level : std::nullopt);
     const Placement lattice = {part.x, part.y, tiled.lattice.placement.z};
-    const Verification measured = verify(decoded.mesh(), lattice, part, bound, gauge.visitor());
+    const Verification measured =
+        verifying::verify(decoded.mesh(), lattice, part, bound, gauge.visitor());
     if (measured.uncovered != 0) {
       fix_beside(uncovered_posts(decoded.mesh(), part, box), part, box, sides, survey);
       continue;

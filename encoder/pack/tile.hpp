@@ -12,7 +12,7 @@
 #include "encoder/pack/borders.hpp"
 #include "encoder/stream/device_memory.hpp"
 #include "encoder/stream/encode.hpp"
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/verify.hpp"
 
 namespace microtin::pack {
 

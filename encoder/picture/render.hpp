@@ -13,7 +13,7 @@
 #include "encoder/layers.hpp"
 #include "encoder/picture/drawing.hpp"
 #include "encoder/picture/palette.hpp"
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/verify.hpp"
 
 namespace microtin::picture {
 

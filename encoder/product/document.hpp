@@ -15,7 +15,7 @@
 #include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
 #include "encoder/stream/decoded_terrain.hpp"
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/verify.hpp"
 
 namespace microtin::product {
 

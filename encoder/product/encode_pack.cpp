@@ -12,8 +12,8 @@
 #include "encoder/pack/tile_plan.hpp"
 #include "encoder/product/true_bound.hpp"
 #include "encoder/terrain/clouds.hpp"
-#include "encoder/terrain/everywhere.hpp"
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/everywhere.hpp"
+#include "encoder/verify/verify.hpp"
 #include "microtin/encoder.hpp"
 
 namespace microtin::product {
@@ -115,6 +115,14 @@ PackReport report_of(const PackContent& pack) {
   report.bounds = pack.metadata.bounds;
   if (report.bounds && report.measured.bounds) report.bounds->span = *report.measured.bounds;
   return report;
+}
+
+uint32_t slot_capacity(const PackReport& pack) {
+  return std::max<uint32_t>(pack.most_vertices, 3);
+}
+
+uint64_t adapter_ram(const PackReport& pack) {
+  return pack_ram(slot_capacity(pack), pack.compact_bytes, kAdapterTiles) + kAdapterBytes;
 }
 
 PackContent encode_pack(const RasterReader& raster, const EncodeOptions& asked,

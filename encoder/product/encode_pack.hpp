@@ -33,6 +33,11 @@ struct PackReport {
 
 PackReport report_of(const PackContent& pack);
 
+// The fewest vertices that a slot of a device has room for, and the memory in bytes that an adapter
+// of decoder/adapters takes with kAdapterTiles such compact slots. The pack states compact_bytes.
+uint32_t slot_capacity(const PackReport& pack);
+uint64_t adapter_ram(const PackReport& pack);
+
 // Chooses, encodes, decodes and compares tile by tile, as encode_stream does for all; the streams
 // wait in the spool until the index is known. Throws Error if what is asked for cannot be had.
 PackContent encode_pack(const RasterReader& raster, const EncodeOptions& asked,

@@ -17,9 +17,9 @@
 #include "encoder/stream/device_memory.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/terrain/clouds.hpp"
-#include "encoder/terrain/everywhere.hpp"
-#include "encoder/terrain/verify.hpp"
-#include "encoder/terrain/water.hpp"
+#include "encoder/verify/everywhere.hpp"
+#include "encoder/verify/verify.hpp"
+#include "encoder/verify/water_gauge.hpp"
 
 namespace microtin::product {
 namespace {

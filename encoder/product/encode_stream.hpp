@@ -11,7 +11,7 @@
 #include "encoder/layers.hpp"
 #include "encoder/product/options.hpp"
 #include "encoder/terrain/lay_out.hpp"
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/verify.hpp"
 
 namespace microtin::product {
 

@@ -303,7 +303,7 @@ void add_everywhere(Report& report, const std::optional<terrain::Distances>& sta
   report.max_above_everywhere = to_string(stated->above);
 }
 
-void add_true_places(Report& report, const std::optional<terrain::Verification>& measured) {
+void add_true_places(Report& report, const std::optional<verifying::Verification>& measured) {
   if (!measured) return;
   report.max_error_at_points = to_string(measured->max_error);
   report.max_below_at_points = to_string(measured->max_below);
@@ -316,7 +316,7 @@ std::string bound_text(const product::EncodedStream& encoded) {
 }
 
 Report report_of(const product::EncodedStream& encoded) {
-  const terrain::Verification& measured = encoded.verification;
+  const verifying::Verification& measured = encoded.verification;
   Report report{measured.posts,
                 encoded.vertices,
                 encoded.stream.size(),

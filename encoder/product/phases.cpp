@@ -7,7 +7,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/stream/decoded_terrain.hpp"
 #include "encoder/stream/header.hpp"
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/verify.hpp"
 
 namespace microtin::product {
 namespace {

@@ -17,7 +17,7 @@
 #include "encoder/export/profile.hpp"
 #include "encoder/product/document.hpp"
 #include "encoder/stream/header.hpp"
-#include "encoder/terrain/everywhere.hpp"
+#include "encoder/verify/everywhere.hpp"
 
 namespace microtin::encoder {
 namespace {
@@ -64,7 +64,7 @@ void take_accuracy(const terrain::Metadata& metadata, SurfaceInfo& info) {
     info.max_below = to_string(metadata.at_samples->below);
     info.max_above = to_string(metadata.at_samples->above);
   }
-  const auto everywhere = terrain::stated_everywhere(metadata.everywhere, metadata.placement.z);
+  const auto everywhere = verifying::stated_everywhere(metadata.everywhere, metadata.placement.z);
   if (everywhere) {
     info.max_below_everywhere = to_string(everywhere->below);
     info.max_above_everywhere = to_string(everywhere->above);
@@ -246,7 +246,7 @@ TileMargins Surface::tile_margins(uint32_t column, uint32_t row) const {
   if (pack == nullptr) return {all.max_below_everywhere, all.max_above_everywhere};
   const terrain::Margins margins = base::with_file_context(
       content_->document.path(), [&] { return pack->margins(row * all.tile_columns + column); });
-  const auto stated = terrain::stated_everywhere(margins, pack->metadata().placement.z);
+  const auto stated = verifying::stated_everywhere(margins, pack->metadata().placement.z);
   if (!stated) return {};
   return {to_string(stated->below), to_string(stated->above)};
 }

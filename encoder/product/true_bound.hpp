@@ -12,7 +12,7 @@
 #include "encoder/export/height_sampler.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/lattice_choice.hpp"
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/verify.hpp"
 
 namespace microtin::product {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Floods voids, checks masks, and watches the water.
+// Floods voids and checks masks.
 #include "encoder/terrain/water.hpp"
 
 #include <algorithm>
@@ -31,15 +31,6 @@ void flood_voids(Raster& raster, Decimal level, const Raster* mask) {
     raster.heights[i] = *height;
     ++raster.mended.flooded;
   }
-}
-
-WaterGauge::WaterGauge(int decimals, const std::optional<Decimal>& level)
-    : number_(number_of(level, decimals)) {}
-
-PostVisitor WaterGauge::visitor() {
-  return [this](int64_t, int64_t, int64_t z, double above) {
-    if (z == number_ && above != 0) ++moved_;
-  };
 }
 
 void check_water_mask(const Raster& mask, const Raster& raster) {

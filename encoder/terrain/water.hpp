@@ -7,7 +7,6 @@
 
 #include "encoder/layers.hpp"
 #include "encoder/terrain/source.hpp"
-#include "encoder/terrain/verify.hpp"
 
 namespace microtin::terrain {
 
@@ -18,22 +17,6 @@ void flood_voids(Raster& raster, Decimal level, const Raster* mask);
 
 // Throws Error if the mask has not the posts of the raster, or holds anything but 0, 1 and voids.
 void check_water_mask(const Raster& mask, const Raster& raster);
-
-// Counts the posts at the water level where a terrain is not exactly there.
-class WaterGauge {
- public:
-  // Gauges a source whose heights have `decimals` decimals. Without a level it counts nothing.
-  WaterGauge(int decimals, const std::optional<Decimal>& level);
-
-  // The gauge must outlive it.
-  PostVisitor visitor();
-
-  uint64_t moved() const { return moved_; }
-
- private:
-  std::optional<int64_t> number_;  // of the source, for the level
-  uint64_t moved_ = 0;
-};
 
 }  // namespace microtin::terrain
 

@@ -15,8 +15,8 @@
 #include "encoder/import/import.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/terrain/lay_out.hpp"
-#include "encoder/terrain/verify.hpp"
 #include "encoder/terrain/voids.hpp"
+#include "encoder/verify/verify.hpp"
 #include "fuzz/support/expect.hpp"
 #include "tests/support/layers.hpp"
 

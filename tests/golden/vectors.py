@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """vectors.py [--write]: test vectors for each section of format-stream.md, computed by the second decoder.
 
-vectors.json must contain them; --write writes it. tests/decoder/vectors_test.cpp compares the library with it.
+vectors.json must contain them; --write writes it. tests/stream/vectors_test.cpp compares the library with it.
 """
 
 import json

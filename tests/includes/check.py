@@ -11,10 +11,10 @@ import re
 import sys
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
-FOLDERS = {"importing": "import", "exporting": "export"}
+FOLDERS = {"importing": "import", "exporting": "export", "verifying": "verify"}
 PUBLIC = ("encoder.h", "encoder.hpp", "surface.hpp")  # in encoder/include
 DRIVERS = ("gdal", "python", "qgis")
-SUPPORT = ("support", "whole", "faults", "bench", "package")  # may include all layers
+SUPPORT = ("support", "adapters", "whole", "faults", "bench", "package")  # may include all layers
 
 
 def layers(root):
@@ -34,6 +34,8 @@ def may_include(path, target, listed):
     if path[0] == "encoder" and path[1] in DRIVERS:
         return target[0] == "microtin" or target[:2] == path[:2]
     if target[0] == "microtin" and target[-1] in PUBLIC:
+        if path[:2] == ("encoder", "include"):
+            return True
         target = ("encoder", "product")
     if target[0] != "encoder" or target[1] == "layers.hpp":
         return target[0] in ("shared", "microtin") or path[0] != "shared"

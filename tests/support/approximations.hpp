@@ -7,7 +7,7 @@
 
 #include "encoder/fit/simplify.hpp"
 #include "encoder/stream/encode.hpp"
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/verify.hpp"
 #include "tests/support/layers.hpp"
 
 namespace microtin::tests {

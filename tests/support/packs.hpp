@@ -99,6 +99,8 @@ inline std::vector<uint8_t> pack_bytes(const Raster& raster, int64_t bound = 3,
   return write_pack(encode_pack(raster, pack_options(bound, vertices)));
 }
 
+using verifying::verify;  // beside the one below
+
 inline Verification verify(const PackFile& pack, const Raster& raster,
                            const std::optional<Decimal>& bound) {
   return verify(pack, RasterInMemory(raster), bound);

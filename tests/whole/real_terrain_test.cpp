@@ -14,7 +14,7 @@
 #include "encoder/pack/surface.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/terrain/lay_out.hpp"
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/verify.hpp"
 #include "tests/support/border_walk.hpp"
 #include "tests/support/packs.hpp"
 #include "tests/support/paths.hpp"

@@ -5,7 +5,7 @@
 
 #include "encoder/stream/encode.hpp"
 #include "encoder/stream/header.hpp"
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/verify.hpp"
 #include "tests/bench/grids/grid.hpp"
 #include "tests/bench/layers.hpp"
 #include "tests/bench/table.hpp"

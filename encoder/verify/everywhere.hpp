@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // How far a surface of triangles is from the bilinear surface of a raster's posts.
-#ifndef MICROTIN_ENCODER_TERRAIN_EVERYWHERE_HPP
-#define MICROTIN_ENCODER_TERRAIN_EVERYWHERE_HPP
+#ifndef MICROTIN_ENCODER_VERIFY_EVERYWHERE_HPP
+#define MICROTIN_ENCODER_VERIFY_EVERYWHERE_HPP
 
 #include <optional>
 
 #include "encoder/layers.hpp"
 #include "encoder/terrain/source.hpp"
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/verify.hpp"
 
-namespace microtin::terrain {
+namespace microtin::verifying {
 
 // The largest distances of a surface below and above another, in units of 2^-16 z steps, rounded
 // up.
@@ -36,6 +36,6 @@ Margins margins_of(const std::optional<Gap>& gap);
 // What a header states, in the unit of heights, rounded up at 9 decimals.
 std::optional<Distances> stated_everywhere(const Margins& margins, const Axis& z);
 
-}  // namespace microtin::terrain
+}  // namespace microtin::verifying
 
 #endif

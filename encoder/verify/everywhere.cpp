@@ -3,7 +3,7 @@
 // units of 2^-16 z steps: those of vertices exactly, those of posts rounded up to find how far the
 // surface is below, down to find how far it is above. So a distance is never too small, and at most
 // two units too large.
-#include "encoder/terrain/everywhere.hpp"
+#include "encoder/verify/everywhere.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/terrain/exact_query.hpp"
 
-namespace microtin::terrain {
+namespace microtin::verifying {
 namespace {
 
 constexpr int64_t kUnits = 65536;  // of height in a z step
@@ -402,4 +402,4 @@ std::optional<Distances> stated_everywhere(const Margins& margins, const Axis& z
                    decimal_of(margins.above * kSixteenth, z)};
 }
 
-}  // namespace microtin::terrain
+}  // namespace microtin::verifying

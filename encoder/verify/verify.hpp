@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Comparing a decoded terrain with its source: by height queries at places of the lattice, and by
 // the exact plane where points truly lie.
-#ifndef MICROTIN_ENCODER_TERRAIN_VERIFY_HPP
-#define MICROTIN_ENCODER_TERRAIN_VERIFY_HPP
+#ifndef MICROTIN_ENCODER_VERIFY_VERIFY_HPP
+#define MICROTIN_ENCODER_VERIFY_VERIFY_HPP
 
 #include <cstdint>
 #include <functional>
@@ -15,7 +15,7 @@
 #include "encoder/terrain/exact_query.hpp"
 #include "encoder/terrain/source.hpp"
 
-namespace microtin::terrain {
+namespace microtin::verifying {
 
 // Errors are in the source's unit, rounded up to 9 decimals (their mean to nearest, from such):
 // compared with a bound of at most 9 decimals, that changes nothing.
@@ -151,6 +151,6 @@ Verification verify_at_true_places(const HeightQuery& height_at, const Placement
                                    const PointCloud& cloud, const std::optional<Decimal>& bound,
                                    const TruePlaceVisitor& visit = {});
 
-}  // namespace microtin::terrain
+}  // namespace microtin::verifying
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Comparing a decoded terrain with its source: by height queries at places of the lattice, and by
 // the exact plane where points truly lie.
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/verify.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@
 #include "encoder/terrain/exact_query.hpp"
 #include "shared/lattice.hpp"
 
-namespace microtin::terrain {
+namespace microtin::verifying {
 namespace {
 
 // Asks a terrain for heights at numbers of a source.
@@ -400,4 +400,4 @@ Verification verify_at_true_places(const HeightQuery& height_at, const Placement
   return result;
 }
 
-}  // namespace microtin::terrain
+}  // namespace microtin::verifying

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Measuring decoded terrains.
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/verify.hpp"
 
 #include <doctest/doctest.h>
 

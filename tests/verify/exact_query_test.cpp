@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "encoder/exact/fraction.hpp"
-#include "encoder/terrain/verify.hpp"
+#include "encoder/verify/verify.hpp"
 #include "tests/support/point_sets.hpp"
 #include "tests/support/reference_heights.hpp"
 #include "tests/support/streams.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Distances from the bilinear surface of posts: known ones, and dense samples in floating point.
-#include "encoder/terrain/everywhere.hpp"
+#include "encoder/verify/everywhere.hpp"
 
 #include <doctest/doctest.h>
 
