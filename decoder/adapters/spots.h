@@ -67,6 +67,10 @@ static inline void microtin_spots_init(microtin_spots* s, microtin_pack* pack) {
   s->home.has_place = 0;
   s->home.has_height = 0;
   s->has_course = 0;
+  s->course_from.latitude = 0;
+  s->course_from.longitude = 0;
+  s->course_x = 0;
+  s->course_y = 0;
   s->lead_x = 0;
   s->lead_y = 0;
   microtin_requests_init(&s->requests, pack);
