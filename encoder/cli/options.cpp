@@ -243,6 +243,15 @@ void add_preparation(CLI::App& command, Preparation& preparation) {
       command, "--area FILE", preparation.area,
       "Keep only what lies in the polygons of this GeoJSON file, or on their borders; all posts "
       "outside are void");
+  CLI::Option* const route = add_text(
+      command, "--route FILE", preparation.route,
+      "Keep only what lies near the lines of this GeoJSON file, and in the area of --area; "
+      "all posts outside are void");
+  CLI::Option* const width = add_decimal(command, "--route-width METRES", preparation.route_width,
+                                         "Keep this width around a route, half on each side")
+                                 ->default_str("none");
+  route->needs(width);
+  width->needs(route);
 #ifdef MICROTIN_WITH_GDAL
   add_number(command, "--band N", preparation.band, 1u,
              "Read heights from this band of a file that GDAL reads")

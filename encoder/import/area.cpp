@@ -9,16 +9,33 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/files/input.hpp"
+#include "encoder/import/corridor.hpp"
 #include "encoder/import/geojson.hpp"
 
 namespace microtin::importing {
 
-Area::Area(const std::string& path) {
+void Area::add_polygons(const std::string& path) {
   const std::string text = read_file(path);
+  const std::size_t before = polygons_.size();
   for (Feature& feature : import_geojson(path, text)) {
     std::move(feature.polygons.begin(), feature.polygons.end(), std::back_inserter(polygons_));
   }
-  if (polygons_.empty()) throw Error(path + ": has no polygon");
+  if (polygons_.size() == before) throw Error(path + ": has no polygon");
+}
+
+void Area::add_corridors(const std::string& path, Decimal width, Unit unit) {
+  const std::string text = read_file(path);
+  const std::size_t before = polygons_.size();
+  const double half = static_cast<double>(width.mantissa) /
+                      static_cast<double>(exact::power_of_ten(width.decimals)) / 2;
+  for (const Feature& feature : import_geojson(path, text)) {
+    for (const RealLine& line : feature.lines) {
+      std::vector<RealRings> corridor =
+          with_file_context(path, [&] { return corridor_of(line, half, unit); });
+      std::move(corridor.begin(), corridor.end(), std::back_inserter(polygons_));
+    }
+  }
+  if (polygons_.size() == before) throw Error(path + ": has no line");
 }
 
 void Area::cut(Raster& raster) const {

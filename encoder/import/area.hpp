@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The part of a terrain that lies in polygons.
+// The part of a terrain that lies in polygons, or beside a route.
 #ifndef MICROTIN_ENCODER_IMPORT_AREA_HPP
 #define MICROTIN_ENCODER_IMPORT_AREA_HPP
 
@@ -7,17 +7,23 @@
 #include <string>
 #include <vector>
 
+#include "encoder/exact/decimal.hpp"
+#include "encoder/exact/units.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/polygons.hpp"
 
 namespace microtin::importing {
 
-// Polygons of a GeoJSON file, in the terrain's own system; borders belong to them.
+// Polygons in the terrain's own system; borders belong to them.
 class Area {
  public:
-  // Throws Error naming the file, also if it has no polygon.
-  explicit Area(const std::string& path);
+  // Adds those of a GeoJSON file. Throws Error naming the file, also if it has none.
+  void add_polygons(const std::string& path);
+
+  // Adds what lies within half of `width` metres of the lines of a GeoJSON file (corridor.hpp).
+  // Throws Error naming the file, also if it has none.
+  void add_corridors(const std::string& path, Decimal width, Unit unit);
 
   // Makes the posts outside void, or leaves the points outside out.
   void cut(Raster& raster) const;

@@ -224,7 +224,8 @@ std::vector<std::string> files_of(const std::string& path, const Preparation& pr
   std::vector<std::string> names = preparation.water_mask.empty()
                                        ? std::vector<std::string>()
                                        : std::vector<std::string>{preparation.water_mask};
-  for (const std::string& file : {preparation.cells, preparation.area, preparation.error_map}) {
+  for (const std::string& file :
+       {preparation.cells, preparation.area, preparation.route, preparation.error_map}) {
     if (!file.empty()) names.push_back(file);
   }
   if (!path.empty()) {
@@ -285,12 +286,25 @@ Source without_bounds(const std::string& path, const Preparation& preparation) {
   return whole_of(parts[0], *std::get<std::unique_ptr<RasterReader>>(source));
 }
 
+bool has_area(const Preparation& preparation) {
+  return !preparation.area.empty() || !preparation.route.empty();
+}
+
+Area area_of(const Preparation& preparation, const Reference& reference) {
+  Area area;
+  if (!preparation.area.empty()) area.add_polygons(preparation.area);
+  if (!preparation.route.empty() && preparation.route_width) {
+    area.add_corridors(preparation.route, *preparation.route_width, reference.horizontal_unit);
+  }
+  return area;
+}
+
 }  // namespace
 
 Source prepared_terrain(const std::string& path, const Preparation& preparation) {
   Source source = without_bounds(path, preparation);
-  if (!preparation.area.empty()) {
-    const Area area(preparation.area);
+  if (has_area(preparation)) {
+    const Area area = area_of(preparation, terrain::reference_of(source));
     std::visit([&](auto& one) { area.cut(one); }, source);
   }
   if (preparation.error_map.empty()) return source;
@@ -301,12 +315,12 @@ Source prepared_terrain(const std::string& path, const Preparation& preparation)
 
 namespace {
 
-void cut_to_area(OpenSource& source, const std::string& path) {
-  Area area(path);
+void cut_to_area(OpenSource& source, const Preparation& preparation) {
   if (auto* const cloud = std::get_if<PointCloud>(&source)) {
-    area.cut(*cloud);
+    area_of(preparation, cloud->reference).cut(*cloud);
   } else {
     auto& raster = std::get<std::unique_ptr<RasterReader>>(source);
+    Area area = area_of(preparation, raster->frame().reference);
     raster = within_area(std::move(raster), std::move(area));
   }
 }
@@ -315,7 +329,7 @@ void cut_to_area(OpenSource& source, const std::string& path) {
 
 OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
   OpenSource source = prepared(path, parts_of(path, preparation), preparation);
-  if (!preparation.area.empty()) cut_to_area(source, preparation.area);
+  if (has_area(preparation)) cut_to_area(source, preparation);
   if (preparation.error_map.empty()) return source;
   auto map = std::make_shared<const BoundMap>(preparation.error_map, preparation.max_error);
   if (auto* const cloud = std::get_if<PointCloud>(&source)) {

@@ -41,6 +41,8 @@ struct Preparation {
   Indirect indirect = Indirect::kRefused;  // files that name others
   uint32_t band = 0;                       // of a file that has several, from 1 on
   std::string area;                        // the file of polygons outside of which all is void
+  std::string route;                       // the file of lines far from which all is void
+  std::optional<Decimal> route_width;      // metres; together with `route`
   std::string error_map;                   // the file of posts' own bounds; empty: none
   std::optional<Decimal> max_error;        // the bound where that says nothing
   // Settled with each file's; nothing: units and systems are left alone, where no heights are used.

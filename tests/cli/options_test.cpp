@@ -57,6 +57,9 @@ std::string mask() {
   return text;
 }
 
+const char* const kRoute =
+    R"({"type": "LineString", "coordinates": [[504, 704], [540, 730], [560, 716]]})";
+
 // A tight bound for some posts.
 std::string bounds() {
   return R"({"type": "Feature", "properties": {"max_error": 0.5}, "geometry": {"type": "Polygon",
@@ -114,6 +117,8 @@ const std::vector<OptionRow> kOptionRows = {
     {"encode", "--max-degree", "t.asc --max-error 2 -o o.mtin", "6"},
     {"encode", "--coding", "t.asc --max-error 2 -o o.mtin", "quick"},
     {"encode", "--area", "t.asc --max-error 2 -o o.mtin", "bounds.geojson"},
+    {"encode", "--route", "t.asc --max-error 2 --route-width 9 -o o.mtin", "route.geojson"},
+    {"encode", "--route-width", "t.asc --max-error 2 --route route.geojson -o o.mtin", "9"},
     {"encode", "--classes", "s.las -o o.mtin", "all"},
     {"encode", "--fill-voids", "t.asc --max-error 2 -o o.mtin", "1"},
     {"encode", "--water-level", "t.asc --max-error 2 -o o.mtin", "50"},
@@ -174,6 +179,8 @@ const std::vector<OptionRow> kOptionRows = {
     {"diff", "--json", "s.mtp s.mtp", ""},
     {"verify", "--json", "t.mtin t.asc", ""},
     {"verify", "--area", "m.mtin t.asc", "bounds.geojson"},
+    {"verify", "--route", "m.mtin t.asc --route-width 9", "route.geojson"},
+    {"verify", "--route-width", "m.mtin t.asc --route route.geojson", "9"},
     {"verify", "--classes", "s.mtin s.las", "2"},
     {"verify", "--epsg", "m.mtin t.asc", "32633:5715"},
     {"verify", "--units", "m.mtin t.asc", ":cm"},
@@ -200,6 +207,10 @@ const std::vector<OptionRow> kOptionRows = {
     {"render", "--world-file", kRender, ""},
     {"render", "--source", kRender, "t.asc"},
     {"render", "--area", "m.mtin -o o.png --width 300 --source t.asc", "bounds.geojson"},
+    {"render", "--route", "m.mtin -o o.png --width 300 --source t.asc --route-width 9",
+     "route.geojson"},
+    {"render", "--route-width", "m.mtin -o o.png --width 300 --source t.asc --route route.geojson",
+     "9"},
     {"render", "--classes", "s.mtin -o o.png --width 300 --source s.las", "2"},
     {"render", "--epsg", "m.mtin -o o.png --width 300 --source t.asc", "32633:5715"},
     {"render", "--units", "m.mtin -o o.png --width 300 --source t.asc", ":cm"},
@@ -232,6 +243,7 @@ void write_inputs(const Session& session) {
   session.write("peak.asc", grid(30));
   session.write("mask.asc", mask());
   session.write("bounds.geojson", bounds());
+  session.write("route.geojson", kRoute);
   session.write("s.las", las_scan());
   session.write("part.asc",
                 "ncols 2\nnrows 2\nxllcenter 510\nyllcenter 710\ncellsize 4\n1 2 3 4\n");
@@ -359,6 +371,7 @@ const std::vector<std::string> kOfShards = {"--max-error 1.8",
                                             "--coding quick",
                                             "--coding dense",
                                             "--area bounds.geojson",
+                                            "--route route.geojson --route-width 9",
                                             "--fill-voids 1",
                                             "--epsg 25832",
                                             "--water-level 50",
@@ -407,6 +420,7 @@ TEST_CASE("options: shards with another option do not join" * kSlow) {
   session.write("u.asc", grid(0.1));
   session.write("mask.asc", mask());
   session.write("bounds.geojson", bounds());
+  session.write("route.geojson", kRoute);
   const auto encode = [&](const std::string& words) {
     const Session::Result made = session.run("encode " + words);
     CHECK_MESSAGE(made.code == 0, (words + made.err));
@@ -436,7 +450,8 @@ TEST_CASE("options: none is without a row in the table of shards") {
   const Session session;
   Names known = kNotOfShards;
   for (const std::string& option : kOfShards) known.insert(name_of(option));
-  for (const char* const name : {"--absent", "--cells", "--resume", "--water-mask"}) {
+  for (const char* const name :
+       {"--absent", "--cells", "--resume", "--route-width", "--water-mask"}) {
     known.insert(name);
   }
   CHECK(text_of(without(options_of(session, "encode"), {"--allow-vrt", "--band"})) ==

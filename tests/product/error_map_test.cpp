@@ -430,3 +430,34 @@ TEST_CASE("area: posts in polygons and on their borders stay, and all others are
   expect_runs(session, "encode p.xyz --units metre --area area.geojson -o p.mtin");
   CHECK(library::Surface::from_file(session.folder() + "/p.mtin").info().vertices == 10 * 13);
 }
+
+TEST_CASE("route: what lies near its lines stays, with the area's polygons") {
+  const Session session;
+  write_terrain(session);
+  session.write("route.geojson",
+                R"({"type": "LineString", "coordinates": [[1100, 2100], [1500, 2100]]})");
+  session.write("area.geojson", R"({"type": "Polygon", "coordinates":
+  [[[1200, 2300], [1300, 2300], [1300, 2400], [1200, 2400], [1200, 2300]]]})");
+  const std::string words =
+      " --units metre --route route.geojson --route-width 60 --area area.geojson";
+  for (const std::string file : {"a.mtin", "a.mtp"}) {
+    expect_runs(session, "encode t.asc --max-error 3 -o " + file + words +
+                             (file == "a.mtp" ? " --tile-size 20" : ""));
+    const library::Mesh mesh = library::Surface::from_file(session.folder() + "/" + file).mesh();
+    for (int row = 0; row < kRows; ++row) {
+      for (int column = 0; column < kColumns; ++column) {
+        const bool is_level = row >= 7 && row <= 13;
+        const bool is_near = is_level && column >= 10 && column <= 50;
+        if (is_level && !is_near) continue;  // round ends
+        const bool is_in_area = column >= 20 && column <= 30 && row >= 30 && row <= 40;
+        const double height = height_at(mesh, 1000 + 10 * column, 2000 + 10 * row);
+        CHECK(std::isnan(height) == !(is_near || is_in_area));
+      }
+    }
+  }
+  expect_runs(session, "verify a.mtin t.asc" + words);
+  CHECK(session.run("verify a.mtin t.asc --units metre").code != 0);
+  CHECK(contains(session.failure("encode t.asc --route area.geojson --route-width 60 -o b.mtin"),
+                 "area.geojson: has no line"));
+  CHECK(session.run("encode t.asc --route route.geojson -o b.mtin").code == 2);
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Surrounds each piece of a line by a rectangle, and each of its ends by a polygon.
+#include "encoder/import/corridor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "encoder/base/error.hpp"
+#include "encoder/exact/decimal.hpp"
+
+namespace microtin::importing {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kMetresOfDegree = 110574;
+constexpr double kPieceDegrees = 0.25;  // of latitude: a metre has the same longitude in a piece
+constexpr int kCorners = 32;            // around an end; they are 0.5 % farther away than sides
+
+struct Place {
+  double x, y;
+};
+
+double number(Decimal value) {
+  return static_cast<double>(value.mantissa) /
+         static_cast<double>(exact::power_of_ten(value.decimals));
+}
+
+RealPoint point_at(double x, double y) {
+  const std::optional<Decimal> decimal_x = exact::shortest_decimal(x),
+                               decimal_y = exact::shortest_decimal(y);
+  if (!decimal_x || !decimal_y) throw Error("a place of the route is out of range");
+  return {*decimal_x, *decimal_y};
+}
+
+// How many numbers of x and of y a metre has near a piece.
+Place per_metre(Place from, Place to, double metres, Unit unit) {
+  if (unit != Unit::kDegree) {
+    const double length = exact::metres_per(unit).value_or(1);
+    return {1 / length, 1 / length};
+  }
+  constexpr double kMostLatitude = 89;
+  const double degree = 1 / kMetresOfDegree;
+  const double latitude = std::max(std::abs(from.y), std::abs(to.y)) + metres * degree;
+  if (latitude > kMostLatitude) throw Error("the corridor comes within a degree of a pole");
+  return {degree / std::cos(latitude * kPi / 180), degree};
+}
+
+// A regular polygon around the circle.
+RealRings around(Place at, double metres, Place per) {
+  RealLine ring;
+  const double radius = metres / std::cos(kPi / kCorners);
+  for (int corner = 0; corner <= kCorners; ++corner) {
+    const double angle = 2 * kPi * (corner % kCorners) / kCorners;
+    ring.push_back(
+        point_at(at.x + radius * std::cos(angle) * per.x, at.y + radius * std::sin(angle) * per.y));
+  }
+  return {ring};
+}
+
+RealRings beside(Place from, Place to, double metres, Place per) {
+  const double along_x = (to.x - from.x) / per.x, along_y = (to.y - from.y) / per.y;
+  const double length = std::hypot(along_x, along_y);
+  const double side_x = -along_y / length * metres * per.x,
+               side_y = along_x / length * metres * per.y;
+  const RealPoint first = point_at(from.x + side_x, from.y + side_y);
+  return {{first, point_at(to.x + side_x, to.y + side_y), point_at(to.x - side_x, to.y - side_y),
+           point_at(from.x - side_x, from.y - side_y), first}};
+}
+
+void add_piece(Place from, Place to, double metres, Unit unit, std::vector<RealRings>& polygons) {
+  const Place per = per_metre(from, to, metres, unit);
+  polygons.push_back(around(to, metres, per));
+  if (from.x != to.x || from.y != to.y) polygons.push_back(beside(from, to, metres, per));
+}
+
+}  // namespace
+
+std::vector<RealRings> corridor_of(const RealLine& line, double metres, Unit unit) {
+  std::vector<RealRings> polygons;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const Place to = {number(line[i].x), number(line[i].y)};
+    const Place from = i == 0 ? to : Place{number(line[i - 1].x), number(line[i - 1].y)};
+    const double rise = unit == Unit::kDegree ? std::abs(to.y - from.y) : 0;
+    if (rise > 180) throw Error("the route leaves the Earth");
+    const int pieces = 1 + static_cast<int>(rise / kPieceDegrees);
+    for (int piece = 0; piece < pieces; ++piece) {
+      const auto at = [&](int end) {
+        const double share = static_cast<double>(end) / pieces;
+        return Place{from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share};
+      };
+      add_piece(at(piece), at(piece + 1), metres, unit, polygons);
+    }
+  }
+  return polygons;
+}
+
+}  // namespace microtin::importing
