@@ -21,10 +21,12 @@ Found next_known(uint32_t reach, uint32_t& distance, const Look& look) {
 }
 
 // Between two posts, at distances from them. Bounds are rounded inwards, as those of samples.
-Sample between(const Sample& a, uint32_t from_a, const Sample& b, uint32_t from_b, Point place) {
+Sample between(const Sample& first, uint32_t from_a, const Sample& second, uint32_t from_b,
+               Point place) {
   // Between a post with a bound and one without, the bound that there is holds.
-  if (a.is_unbounded() && !b.is_unbounded()) return between(b, from_a, b, from_b, place);
-  if (b.is_unbounded() && !a.is_unbounded()) return between(a, from_a, a, from_b, place);
+  const bool is_first_free = first.is_unbounded(), is_second_free = second.is_unbounded();
+  const Sample& a = is_first_free && !is_second_free ? second : first;
+  const Sample& b = is_second_free && !is_first_free ? first : second;
   const Wide all = from_a + from_b;
   const auto sum = [&](int32_t of_a, int32_t of_b) {
     return Wide{of_a} * from_b + Wide{of_b} * from_a;
