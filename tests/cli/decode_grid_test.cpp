@@ -9,6 +9,7 @@
 #include "microtin/surface.hpp"
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/join.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/session.hpp"
 #include "tests/support/slow.hpp"
 
@@ -152,7 +153,9 @@ Bytes understated_pack() {
 
 }  // namespace
 
-TEST_CASE("cli: the vertices of a pack are counted, not taken from its header" * kSlow) {
+// Sanitizers take minutes to make this pack, and less of the program runs than in other cases.
+TEST_CASE("cli: the vertices of a pack are counted, not taken from its header" * kSlow *
+          doctest::skip(kIsSanitized)) {
   const Session session;
   const Bytes pack = understated_pack();
   session.write("t.mtp", {pack.begin(), pack.end()});
