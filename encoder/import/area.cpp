@@ -26,8 +26,7 @@ void Area::add_polygons(const std::string& path) {
 void Area::add_corridors(const std::string& path, Decimal width, Unit unit) {
   const std::string text = read_file(path);
   const std::size_t before = polygons_.size();
-  const double half = static_cast<double>(width.mantissa) /
-                      static_cast<double>(exact::power_of_ten(width.decimals)) / 2;
+  const double half = exact::real(width) / 2;
   for (const Feature& feature : import_geojson(path, text)) {
     for (const RealLine& line : feature.lines) {
       std::vector<RealRings> corridor =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The part of a terrain that lies in polygons, or beside a route.
+// Keeps the part of a terrain that lies in polygons or near a route.
 #ifndef MICROTIN_ENCODER_IMPORT_AREA_HPP
 #define MICROTIN_ENCODER_IMPORT_AREA_HPP
 

@@ -21,11 +21,6 @@ struct Place {
   double x, y;
 };
 
-double number(Decimal value) {
-  return static_cast<double>(value.mantissa) /
-         static_cast<double>(exact::power_of_ten(value.decimals));
-}
-
 RealPoint point_at(double x, double y) {
   const std::optional<Decimal> decimal_x = exact::shortest_decimal(x),
                                decimal_y = exact::shortest_decimal(y);
@@ -79,8 +74,8 @@ void add_piece(Place from, Place to, double metres, Unit unit, std::vector<RealR
 std::vector<RealRings> corridor_of(const RealLine& line, double metres, Unit unit) {
   std::vector<RealRings> polygons;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const Place to = {number(line[i].x), number(line[i].y)};
-    const Place from = i == 0 ? to : Place{number(line[i - 1].x), number(line[i - 1].y)};
+    const Place to = {exact::real(line[i].x), exact::real(line[i].y)};
+    const Place from = i == 0 ? to : Place{exact::real(line[i - 1].x), exact::real(line[i - 1].y)};
     const double rise = unit == Unit::kDegree ? std::abs(to.y - from.y) : 0;
     if (rise > 180) throw Error("the route leaves the Earth");
     const int pieces = 1 + static_cast<int>(rise / kPieceDegrees);

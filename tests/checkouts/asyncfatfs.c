@@ -150,17 +150,6 @@ static void close_file(void* unused) {
 
 static const microtin_card_driver driver = {presence, open_file, seek_file, read_file, close_file};
 
-static void read_image(const char* path) {
-  FILE* const in = fopen(path, "rb");
-  require(in != NULL, path);
-  fseek(in, 0, SEEK_END);
-  image_size = (size_t)ftell(in);
-  rewind(in);
-  image = (uint8_t*)malloc(image_size);
-  require(image != NULL && fread(image, 1, image_size, in) == image_size, "the image");
-  fclose(in);
-}
-
 static void write_pack(void) {
   size_t written = 0;
   while (afatfs_getFilesystemState() != AFATFS_FILESYSTEM_STATE_READY) afatfs_poll();
@@ -184,7 +173,7 @@ int main(int argc, char** argv) {
   int i;
   require(argc == 3, "asyncfatfs PACK IMAGE");
   find_places(argv[1]);
-  read_image(argv[2]);
+  image = read_whole_file(argv[2], &image_size);
   afatfs_init();
   write_pack();
   pack = new_pack(4);

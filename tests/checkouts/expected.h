@@ -27,15 +27,21 @@ static void require(int is_right, const char* what) {
   exit(1);
 }
 
-static void read_pack_file(const char* path) {
+static uint8_t* read_whole_file(const char* path, size_t* size) {
   FILE* const file = fopen(path, "rb");
+  uint8_t* bytes;
   require(file != NULL, path);
   fseek(file, 0, SEEK_END);
-  pack_size = (size_t)ftell(file);
+  *size = (size_t)ftell(file);
   rewind(file);
-  pack_bytes = (uint8_t*)malloc(pack_size);
-  require(pack_bytes != NULL && fread(pack_bytes, 1, pack_size, file) == pack_size, "the file");
+  bytes = (uint8_t*)malloc(*size);
+  require(bytes != NULL && fread(bytes, 1, *size, file) == *size, path);
   fclose(file);
+  return bytes;
+}
+
+static void read_pack_file(const char* path) {
+  pack_bytes = read_whole_file(path, &pack_size);
 }
 
 static int32_t read_memory(void* context, uint64_t offset, uint8_t* buffer, size_t size) {

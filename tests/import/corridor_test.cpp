@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Corridors beside lines hold every place that is near enough, and few others.
+// A corridor holds every place near its line, and few others.
 #include "encoder/import/corridor.hpp"
 
 #include <doctest/doctest.h>
@@ -37,6 +37,19 @@ Line random_line(Random& random, int64_t x, int64_t y, uint32_t extent) {
   }
   return line;
 }
+
+// Places that a corridor must hold, and that it must not.
+struct Counts {
+  int near = 0, far = 0;
+
+  template <class IsHeld>
+  void check(double away, double held, double left_out, const IsHeld& is_held) {
+    if (away <= held) CHECK(is_held());
+    if (away > left_out) CHECK(!is_held());
+    near += away <= held ? 1 : 0;
+    far += away > left_out ? 1 : 0;
+  }
+};
 
 bool holds(const std::vector<RealRings>& polygons, const Axis& axis, int64_t x, int64_t y) {
   return std::any_of(polygons.begin(), polygons.end(), [&](const RealRings& polygon) {
@@ -84,7 +97,7 @@ double metres_of_latitude(double latitude) {
 TEST_CASE("corridor: in a plane it holds what is near, and nothing half a percent farther") {
   Random random(3);
   const Axis axis = decimal_axis(3);
-  int inside = 0, outside = 0;
+  Counts counts;
   for (int round = 0; round < 60; ++round) {
     const Line line = random_line(random, -500000, 4000000, 1000000);
     const auto polygons = corridor_of(line.real(3), 80, Unit::kMetre);
@@ -93,20 +106,17 @@ TEST_CASE("corridor: in a plane it holds what is near, and nothing half a percen
                     y = int64_t{random.below(1200000)} + 3900000;
       const double away =
           distance(line, static_cast<double>(x), static_cast<double>(y), 0.001, 0.001);
-      if (away <= 80) CHECK(holds(polygons, axis, x, y));
-      if (away > 80.45) CHECK(!holds(polygons, axis, x, y));
-      inside += away <= 80 ? 1 : 0;
-      outside += away > 80.45 ? 1 : 0;
+      counts.check(away, 80, 80.45, [&] { return holds(polygons, axis, x, y); });
     }
   }
-  CHECK(inside > 300);
-  CHECK(outside > 300);
+  CHECK(counts.near > 300);
+  CHECK(counts.far > 300);
 }
 
 TEST_CASE("corridor: in degrees no near place is missing, and none is 3 percent farther") {
   Random random(4);
   const Axis axis = decimal_axis(6);
-  int inside = 0, outside = 0;
+  Counts counts;
   for (int round = 0; round < 60; ++round) {
     const int64_t south = int64_t{random.below(118)} * 1000000 - 59000000;
     const Line line = random_line(random, 7000000, south, 900000);
@@ -118,14 +128,11 @@ TEST_CASE("corridor: in degrees no near place is missing, and none is 3 percent 
       const double latitude = static_cast<double>(y) / 1e6;
       const double away = distance(line, static_cast<double>(x), static_cast<double>(y),
                                    metres_of_longitude(latitude), metres_of_latitude(latitude));
-      if (away <= 9000) CHECK(holds(polygons, axis, x, y));
-      if (away > 9270) CHECK(!holds(polygons, axis, x, y));
-      inside += away <= 9000 ? 1 : 0;
-      outside += away > 9270 ? 1 : 0;
+      counts.check(away, 9000, 9270, [&] { return holds(polygons, axis, x, y); });
     }
   }
-  CHECK(inside > 300);
-  CHECK(outside > 300);
+  CHECK(counts.near > 300);
+  CHECK(counts.far > 300);
 }
 
 TEST_CASE("corridor: feet are not metres, and poles are refused") {

@@ -99,7 +99,7 @@ inline std::vector<uint8_t> pack_bytes(const Raster& raster, int64_t bound = 3,
   return write_pack(encode_pack(raster, pack_options(bound, vertices)));
 }
 
-using verifying::verify;  // beside the one below
+using verifying::verify;  // which the function below would hide
 
 inline Verification verify(const PackFile& pack, const Raster& raster,
                            const std::optional<Decimal>& bound) {
