@@ -13,7 +13,7 @@ struct Section {
 };
 
 Section& section() {
-  static Section* const only = new Section;  // lives as long as the process, whoever waits
+  static Section* const only = new Section;  // never destroyed: a handler may still wait for it
   return *only;
 }
 
