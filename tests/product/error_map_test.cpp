@@ -13,6 +13,7 @@
 #include "microtin/encoder.hpp"
 #include "microtin/surface.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/join.hpp"
 #include "tests/support/session.hpp"
 
 using namespace microtin::tests;
@@ -441,8 +442,8 @@ TEST_CASE("route: what lies near its lines stays, with the area's polygons") {
   const std::string words =
       " --units metre --route route.geojson --route-width 60 --area area.geojson";
   for (const std::string file : {"a.mtin", "a.mtp"}) {
-    expect_runs(session, "encode t.asc --max-error 3 -o " + file + words +
-                             (file == "a.mtp" ? " --tile-size 20" : ""));
+    const std::string tiles = file == "a.mtp" ? " --tile-size 20" : "";
+    expect_runs(session, join({"encode t.asc --max-error 3 -o ", file, words, tiles}));
     const library::Mesh mesh = library::Surface::from_file(session.folder() + "/" + file).mesh();
     for (int row = 0; row < kRows; ++row) {
       for (int column = 0; column < kColumns; ++column) {
