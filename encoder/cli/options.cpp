@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kTerrainFiles =
     "Files of one terrain, or folders of them. Rasters: .hgt, .zip with one .hgt, .asc. Points: "
-    ".xyz, .csv, .txt, .las, .ply, .obj; - reads points from standard input"
+    ".xyz, .csv, .txt, .las, .laz, .ply, .obj; - reads points from standard input"
 #ifdef MICROTIN_WITH_GDAL
     ". GDAL reads other formats"
 #endif
@@ -233,7 +233,7 @@ void add_preparation(CLI::App& command, Preparation& preparation) {
     return read_classes(text, preparation.classes.emplace());
   };
   add_read(command, "--classes LIST", read, "a list such as 2,9, or all",
-           "Read the points of these classes of .las files, such as 2,9, or all")
+           "Read the points of these classes of .las and .laz files, such as 2,9, or all")
       ->default_str("ground, 2; without ground all but noise, 7 and 18");
   add_reference(command, preparation);
   command.add_flag("--gridded", preparation.gridded,

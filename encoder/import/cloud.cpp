@@ -124,7 +124,7 @@ uint64_t points_in(const std::string& path, const std::string& suffix) {
   const std::unique_ptr<ByteSource> file = open_file(path);
   const std::vector<uint8_t> head = bytes_at(*file, 0, std::min(kLookedAt, file->size()));
   const std::string text(head.begin(), head.end());
-  if (suffix == ".las") return points_of_las(ByteReader(path, text));
+  if (suffix == ".las" || suffix == ".laz") return points_of_las(ByteReader(path, text));
   return suffix == ".ply" ? points_of_ply(text) : lines_of(text, file->size());
 }
 
@@ -132,7 +132,7 @@ uint64_t points_in(const std::string& path, const std::string& suffix) {
 
 uint64_t points_expected(const std::string& path) {
   const std::string suffix = suffix_of(path);
-  constexpr const char* kClouds[] = {".las", ".ply", ".xyz", ".csv", ".txt", ".obj"};
+  constexpr const char* kClouds[] = {".las", ".laz", ".ply", ".xyz", ".csv", ".txt", ".obj"};
   const bool is_cloud =
       std::find(std::begin(kClouds), std::end(kClouds), suffix) != std::end(kClouds);
   try {

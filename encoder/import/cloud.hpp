@@ -36,9 +36,9 @@ std::string taken_text(const ClassCounts& counts, const ClassSet& taken);
 
 // How large a cloud is, before it is read.
 
-// About how many points a file holds: what the header of a .las or .ply says, or as many lines as
-// there are in a text if all are as long as its first. 0 of other files, and of those that cannot
-// be read, which reading tells.
+// About how many points a file holds: what the header of a .las, .laz or .ply says, or as many
+// lines as there are in a text if all are as long as its first. 0 of other files, and of those that
+// cannot be read, which reading tells.
 uint64_t points_expected(const std::string& path);
 
 // How many points the header of a LAS file says there are. Throws Error if it is cut off.

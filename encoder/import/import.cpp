@@ -96,7 +96,7 @@ bool is_laser_scan(const std::string& suffix) {
 }
 
 constexpr const char* kKinds =
-    ".hgt, .zip, .asc, .xyz, .csv, .txt, .las, .ply, .obj"
+    ".hgt, .zip, .asc, .xyz, .csv, .txt, .las, .laz, .ply, .obj"
 #ifdef MICROTIN_WITH_GDAL
     ", .tif and others by GDAL";
 #else
@@ -169,7 +169,7 @@ Source import_terrain(const std::string& path, const std::optional<ClassSet>& cl
   const std::string suffix = suffix_of(path);
   expect_source(path);
   if (is_laser_scan(suffix)) return import_las(path, read_file(path), classes);
-  if (classes) throw Error(path + ": only .las files have classes");
+  if (classes) throw Error(path + ": only .las and .laz files have classes");
   if (path == "-") return import_points_or_grid("standard input", read_file(path));
   const Import import = importer_for(suffix);
   if (import == nullptr) return import_other(path, indirect, band);

@@ -22,10 +22,10 @@ namespace microtin::importing {
 enum class Indirect { kRefused, kAllowed };
 
 // Reads a file by its suffix: .hgt, .zip (one .hgt), .asc (with a .prj next to it, if there is
-// one), .xyz, .csv, .txt (points, or a grid by what they begin with), .las, .ply, .obj; in builds
-// with GDAL all others by GDAL. "-" reads points from standard input. `classes` are for .las alone;
-// `band`, from 1 on, says which one of several GDAL reads. Throws Error naming the file and, for
-// text, the line.
+// one), .xyz, .csv, .txt (points, or a grid by what they begin with), .las, .laz, .ply, .obj; in
+// builds with GDAL all others by GDAL. "-" reads points from standard input. `classes` are for .las
+// and .laz alone; `band`, from 1 on, says which one of several GDAL reads. Throws Error naming the
+// file and, for text, the line.
 Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes = {},
                       Indirect indirect = Indirect::kRefused, uint32_t band = 0);
 
@@ -72,8 +72,9 @@ std::unique_ptr<RasterReader> open_asc(const std::string& name, std::unique_ptr<
 PointCloud import_points(const std::string& name, const std::string& text);
 
 // Points of LAS 1.0 to 1.4, formats 0 to 10, with codes and units from GeoTIFF keys or well-known
-// text. Takes the classes asked for; if none are, the ground (2) or, in a file without, all but
-// noise (7 and 18). Points flagged as withheld are never taken.
+// text, also compressed as LAZ: formats 0 to 3, and 6 to 10 in layers. Takes the classes asked for;
+// if none are, the ground (2) or, in a file without, all but noise (7 and 18). Points flagged as
+// withheld are never taken.
 PointCloud import_las(const std::string& name, const std::string& bytes,
                       const std::optional<ClassSet>& classes);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // LAS, the American Society for Photogrammetry and Remote Sensing's format for laser scans.
-// Ours: of its many fields four are read, as the integers that they are.
+// Ours: of its many fields five are read, as the integers that they are.
 #include <algorithm>
 #include <array>
 
@@ -10,6 +10,8 @@
 #include "encoder/import/cloud.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
+#include "encoder/import/laz.hpp"
+#include "encoder/import/scan_point.hpp"
 #include "encoder/import/text.hpp"
 
 namespace microtin::importing {
@@ -27,16 +29,11 @@ struct LasHeader {
   uint8_t minor_version;
   uint16_t bytes;
   uint8_t point_format;
+  bool is_compressed;
   uint16_t point_bytes;
   uint64_t first_point;
   uint64_t points;
 };
-
-[[noreturn]] void refuse_compressed(const ByteReader& file) {
-  file.fail(
-      "is compressed (LAZ): decompress it first, with laszip, las2las or "
-      "\"pdal translate IN.laz OUT.las\"");
-}
 
 void expect_points_behind(const ByteReader& file, uint64_t first_point, uint64_t end) {
   if (first_point >= end) return;
@@ -61,10 +58,11 @@ LasHeader read_header(const ByteReader& file) {
   }
   header.first_point = file.number<uint32_t>(96);
   expect_points_behind(file, header.first_point, header.bytes);
-  header.point_format = file.number<uint8_t>(104);
+  const auto format = file.number<uint8_t>(104);
+  header.point_format = format & 0x3F;
+  header.is_compressed = format != header.point_format;
   header.point_bytes = file.number<uint16_t>(105);
   header.points = points_of_las(file);
-  if ((header.point_format & 0xC0) != 0) refuse_compressed(file);
   if (header.point_format >= kPointBytes.size()) {
     file.fail("has points of format " + std::to_string(header.point_format) + "; 0 to 10 are read");
   }
@@ -73,12 +71,14 @@ LasHeader read_header(const ByteReader& file) {
               std::to_string(header.point_format) + " takes " +
               std::to_string(kPointBytes[header.point_format]));
   }
-  const uint64_t room = file.size() - std::min(header.first_point, file.size());
-  if (header.points > room / header.point_bytes) {
-    file.fail("cut off: has " + std::to_string(room / header.point_bytes) + " of " +
-              std::to_string(header.points) + " points");
-  }
   return header;
+}
+
+void expect_all_points(const ByteReader& file, const LasHeader& header) {
+  const uint64_t room = file.size() - std::min(header.first_point, file.size());
+  if (header.points <= room / header.point_bytes) return;
+  file.fail("cut off: has " + std::to_string(room / header.point_bytes) + " of " +
+            std::to_string(header.points) + " points");
 }
 
 // The day on which the file was made, in version 1.0 that of the flight; the year alone if the day
@@ -88,7 +88,7 @@ std::string date_of(const ByteReader& file) {
   return year == 0 ? std::string() : iso_date(year, day);
 }
 
-// Collects what the variable length records say of the coordinates.
+// Collects what the variable length records say of the coordinates and of compression.
 class References {
  public:
   explicit References(const ByteReader& file, const LasHeader& header) : file_(file) {
@@ -98,6 +98,9 @@ class References {
       read_records(file.number<uint64_t>(235), file.number<uint32_t>(243), true);
     }
   }
+
+  // Empty: the points are not compressed.
+  std::string_view laszip() const { return laszip_; }
 
   // Some writers leave a text empty next to keys.
   Reference take() const {
@@ -122,7 +125,7 @@ class References {
   void add(std::string_view user, uint16_t record, uint64_t at, uint64_t size) {
     constexpr uint16_t kGeoKeys = 34735, kGeoDoubles = 34736, kWkt = 2112, kLaszip = 22204;
     const std::string_view content = file_.bytes(at, size);
-    if (user == "laszip encoded" && record == kLaszip) refuse_compressed(file_);
+    if (user == "laszip encoded" && record == kLaszip) laszip_ = content;
     if (user != "LASF_Projection") return;
     if (record == kWkt) wkt_ = content;
     if (record == kGeoDoubles) {
@@ -135,34 +138,74 @@ class References {
   }
 
   const ByteReader& file_;
-  std::string_view wkt_;
+  std::string_view wkt_, laszip_;
   std::vector<uint16_t> keys_;
   std::vector<double> doubles_;
 };
 
+// The points of a file in their order: where the file has them, or decompressed.
+class ScanPoints {
+ public:
+  ScanPoints(const ByteReader& file, const LasHeader& header) : file_(file), header_(header) {
+    expect_all_points(file, header);
+  }
+  ScanPoints(const ByteReader& file, const LasHeader& header,
+             std::vector<std::vector<ScanPoint>> unpacked)
+      : file_(file), header_(header), unpacked_(std::move(unpacked)) {}
+
+  // Calls visit(point).
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (const std::vector<ScanPoint>& chunk : unpacked_) {
+      for (const ScanPoint& point : chunk) visit(point);
+    }
+    if (!unpacked_.empty()) return;
+    for (uint64_t i = 0; i < header_.points; ++i) {
+      const uint64_t at = header_.first_point + i * header_.point_bytes;
+      visit(scan_point_at(file_, at, header_.point_format));
+    }
+  }
+
+ private:
+  const ByteReader& file_;
+  const LasHeader& header_;
+  std::vector<std::vector<ScanPoint>> unpacked_;
+};
+
+ScanPoints points_of(const std::string& name, const ByteReader& file, const LasHeader& header,
+                     std::string_view laszip) {
+  if (header.points == 0) file.fail("holds no point");
+  if (!header.is_compressed && laszip.empty()) return {file, header};
+  const LazHeader compressed = {header.point_format, header.point_bytes, header.first_point,
+                                header.points, laszip};
+  return {file, header, unpack_laz(name, file, compressed)};
+}
+
 class LasPointReader {
  public:
-  LasPointReader(const ByteReader& file, const LasHeader& header)
-      : file_(file), header_(header), axes_{scaled(0), scaled(1), scaled(2)} {
-    count_classes();
+  LasPointReader(const ByteReader& file, const ScanPoints& points)
+      : file_(file), points_(points), axes_{scaled(0), scaled(1), scaled(2)} {
+    points.for_each([&](const ScanPoint& point) {
+      ++(point.is_withheld ? counts_.withheld : counts_.points[point.class_code]);
+    });
   }
 
   // The points of these classes that are not withheld.
-  PointCloud read(const ClassSet& classes) {
-    if (header_.points == 0) file_.fail("holds no point");
-    PointColumns points;
-    for (uint64_t i = 0; i < header_.points; ++i) {
-      const uint64_t at = place_of(i);
-      if (is_withheld(at) || !classes[class_of(at)]) continue;
+  PointCloud read(const ClassSet& classes) const {
+    PointColumns columns;
+    uint64_t number = 0;
+    points_.for_each([&](const ScanPoint& point) {
+      ++number;
+      if (point.is_withheld || !classes[point.class_code]) return;
       for (size_t axis = 0; axis < 3; ++axis) {
-        const Decimal value = axes_[axis](file_.number<int32_t>(at + 4 * axis));
-        if (!points.add(axis, value)) fail_on(i, value);
+        const Decimal value = axes_[axis](point.place[axis]);
+        if (!columns.add(axis, value)) fail_on(number, value);
       }
-    }
-    if (points.empty())
+    });
+    if (columns.empty())
       file_.fail("no point is " + taken_text(counts_, classes) +
                  (has_others() ? "; choose other classes by " + parameter("classes") : ""));
-    PointCloud cloud = points.take();
+    PointCloud cloud = columns.take();
     cloud.selection = taken_text(counts_, classes);
     cloud.classes = classes;
     cloud.counts = counts_;
@@ -184,37 +227,18 @@ class LasPointReader {
     return *numbers;
   }
 
-  uint64_t place_of(uint64_t point) const {
-    return header_.first_point + point * header_.point_bytes;
-  }
-
-  bool is_recent() const { return header_.point_format >= 6; }
-  uint8_t class_of(uint64_t at) const {
-    return is_recent() ? file_.number<uint8_t>(at + 16) : file_.number<uint8_t>(at + 15) & 31;
-  }
-  bool is_withheld(uint64_t at) const {
-    return (file_.number<uint8_t>(at + 15) & (is_recent() ? 4 : 128)) != 0;
-  }
-
   bool has_others() const {
     return std::any_of(counts_.points.begin(), counts_.points.end(),
                        [](uint64_t count) { return count != 0; });
   }
 
-  void count_classes() {
-    for (uint64_t i = 0; i < header_.points; ++i) {
-      const uint64_t at = place_of(i);
-      ++(is_withheld(at) ? counts_.withheld : counts_.points[class_of(at)]);
-    }
-  }
-
-  [[noreturn]] void fail_on(uint64_t point, Decimal value) const {
-    file_.fail("point " + std::to_string(point + 1) + ": " + to_string(value) +
+  [[noreturn]] void fail_on(uint64_t number, Decimal value) const {
+    file_.fail("point " + std::to_string(number) + ": " + to_string(value) +
                " is not a number in range");
   }
 
   const ByteReader& file_;
-  const LasHeader& header_;
+  const ScanPoints& points_;
   std::array<ScaledIntegers, 3> axes_;
   ClassCounts counts_;
 };
@@ -232,7 +256,8 @@ PointCloud import_las(const std::string& name, const std::string& bytes,
   const ByteReader file(name, bytes);
   const LasHeader header = read_header(file);
   const References references(file, header);
-  LasPointReader reader(file, header);
+  const ScanPoints points = points_of(name, file, header, references.laszip());
+  const LasPointReader reader(file, points);
   PointCloud cloud = reader.read(classes ? *classes : reader.default_classes());
   cloud.reference = references.take();
   cloud.reference.notes.date = date_of(file);

@@ -31,7 +31,7 @@ enum class Absent : uint8_t { kVoid, kSea };
 struct Preparation {
   std::vector<std::string> more_files;     // of the same terrain, after the one named first
   std::string cells;                       // the list that named some of them, or empty
-  std::optional<ClassSet> classes;         // take these points of a .las file
+  std::optional<ClassSet> classes;         // take these points of a .las or .laz file
   bool gridded = false;                    // points are the posts of a raster
   uint32_t fill_voids = 0;                 // interpolate voids of up to this many posts; 0: none
   std::optional<Decimal> water_level;      // voids that are left are water at this height

@@ -45,7 +45,8 @@ std::variant<PackFile, DecodedStream> content_of(const std::string& path) {
 
 bool has_classes(const std::string& path) {
   const std::string first = path.empty() ? path : files_in(path)[0];
-  return suffix_of(first) == ".las";
+  const std::string suffix = suffix_of(first);
+  return suffix == ".las" || suffix == ".laz";
 }
 
 // Keeps the points that the document stands for.

@@ -77,8 +77,8 @@ void expect_water_level(const std::string& path, const std::optional<Decimal>& n
                         const std::optional<Decimal>& given);
 
 // A terrain that a document is compared with: read in pieces for a pack, whole for a stream. Of a
-// LAS file the classes are taken that the document notes, if none are asked for; of points that
-// share a place those that stand for all by the document's rule.
+// LAS or LAZ file the classes are taken that the document notes, if none are asked for; of points
+// that share a place those that stand for all by the document's rule.
 class Original {
  public:
   // The document must outlive it. Throws Error naming the terrain's file.

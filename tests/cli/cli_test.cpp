@@ -497,7 +497,7 @@ TEST_CASE("cli: meshes are terrains, too, classes are for laser scans") {
     REQUIRE(session.run("encode " + mesh + " -o again.mtin").code == 0);
     CHECK(session.read("again.mtin") == session.read("p.mtin"));
     CHECK(session.failure("encode " + mesh + " --classes 2 -o x.mtin") ==
-          mesh + ": only .las files have classes\n");
+          mesh + ": only .las and .laz files have classes\n");
   }
   session.write("a.las", "LASF");
   session.write("a.zip", "PK");

@@ -355,8 +355,8 @@ TEST_CASE("clouds: the memory that they need is reported before they are read") 
   las[25] = 2;
   las.replace(107, 4, std::string("\0\x2D\x31\x01", 4));  // 20,000,000
   session.write("a.las", las);
-  session.write("b.LAS", las);
-  const std::string told = session.run("encode a.las b.LAS --tile-vertices 500 -o t.mtp").err;
+  session.write("b.LAZ", las);
+  const std::string told = session.run("encode a.las b.LAZ --tile-vertices 500 -o t.mtp").err;
   CHECK(contains(told,
                  "warning: a.las: about 40000000 points take about 7.2 GB of memory; this "
                  "machine has "));

@@ -15,6 +15,7 @@
 #include "microtin/encoder.hpp"
 #include "microtin/surface.hpp"
 #include "tests/support/binary_file.hpp"
+#include "tests/support/laz_file.hpp"
 #include "tests/support/session.hpp"
 
 using namespace microtin::tests;
@@ -69,6 +70,7 @@ std::string las(const Rows& rows) {
 // Points as a reader's format has them.
 std::string points(const std::string& reader, const Rows& rows) {
   if (reader == ".las") return las(rows);
+  if (reader == ".laz") return compressed(las(rows));
   if (reader == ".obj") return joined(rows, "v ", " ");
   if (reader == ".csv") return joined(rows, "", ",");
   if (reader == ".txt") return joined(rows, "", ";");
@@ -140,7 +142,7 @@ void add_rows_of_points(std::vector<RuleCell>& table, const std::string& reader)
     if (reader != kArrayOfPoints) return;
     table.back().array = [rows] { return cloud(rows); };
   };
-  const bool is_text = reader != ".las" && reader != kArrayOfPoints;
+  const bool is_text = reader != ".las" && reader != ".laz" && reader != kArrayOfPoints;
   table.push_back({"no data", reader, "", "points that there are not are left out"});
   if (is_text) {
     file("commas", {{"5,00", "2,05", "3,05"}, {"9,00", "2,05", "3,05"}}, "written with a point");
@@ -223,7 +225,7 @@ std::set<std::string> known_readers() {
 
 std::vector<RuleCell> table_of_rules() {
   std::vector<RuleCell> table;
-  for (const char* const reader : {".xyz", ".csv", ".txt", ".las", ".ply", ".obj"}) {
+  for (const char* const reader : {".xyz", ".csv", ".txt", ".las", ".laz", ".ply", ".obj"}) {
     add_rows_of_points(table, reader);
   }
   add_rows_of_points(table, kArrayOfPoints);

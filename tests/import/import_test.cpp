@@ -377,7 +377,7 @@ TEST_CASE("files that are not there, or of no known kind, are refused by name") 
   CHECK(error(path) ==
         path +
             ": is not a kind of terrain file that microtin reads: .hgt, .zip, .asc, .xyz, .csv, "
-            ".txt, .las, "
+            ".txt, .las, .laz, "
             ".ply, .obj; for others use \"gdal_translate -of AAIGrid IN OUT.asc\", or build with "
             "-DMICROTIN_WITH_GDAL=ON");
 #endif

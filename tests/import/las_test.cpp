@@ -193,14 +193,6 @@ TEST_CASE("las: the day of the header is the date of the source, and files' date
   CHECK(std::get<PointCloud>(both).reference.notes.date == "2024-02-29/2026");
 }
 
-TEST_CASE("las: compressed files are refused with a remedy") {
-  const std::string advice =
-      "scan: is compressed (LAZ): decompress it first, with laszip, las2las or "
-      "\"pdal translate IN.laz OUT.las\"";
-  CHECK(las_error(las(2, 1, kScan).put(104, uint8_t{129}).bytes()) == advice);
-  CHECK(las_error(las(2, 1, kScan, record("laszip encoded", 22204, "x"), 1).bytes()) == advice);
-}
-
 TEST_CASE("las: every error is reported") {
   CHECK(las_error("") == "scan: is not a LAS file");
   CHECK(las_error("LASF") == "scan: cut off: has 4 bytes, but names more");
@@ -233,10 +225,6 @@ TEST_CASE("las: real scans") {
     CHECK(scan.selection == "taken: class 2 (276); left out: class 1 (789)");
     CHECK(scan.xy_decimals == 2);
     CHECK(std::get<PointCloud>(import_terrain(path, ClassSet().set())).points.size() == 1065);
-  }
-  if (const std::string path = data_file("simple.laz"); !path.empty()) {
-    CHECK(import_error([&] { import_terrain(path); }).find("is compressed (LAZ)") !=
-          std::string::npos);
   }
 }
 

@@ -105,7 +105,7 @@ class SourceTerrain {
   explicit SourceTerrain(const PointCloudData& points);
 
   /* Reads a file. Its suffix selects the reader: .hgt, .zip (one .hgt), .asc, .xyz, .csv, .txt,
-   * .las, .ply, .obj. Errors name the file and, for text, the line. */
+   * .las, .laz, .ply, .obj. Errors name the file and, for text, the line. */
   static SourceTerrain from_file(const std::string& path);
 
   /* Gives each post or point a bound of its own, from a raster of bounds in the unit of heights: of
