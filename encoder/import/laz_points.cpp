@@ -269,13 +269,14 @@ class LayeredPoints {
   LayeredPoints(std::string_view bytes, uint32_t count, const LazRecord& record,
                 const ScanPoint& first) {
     open_layers(bytes, count, record);
-    current_ = static_cast<uint8_t>(bytes[15]) >> 4 & 3;
+    const uint32_t flags = static_cast<uint8_t>(bytes[15]);
+    current_ = flags >> 4 & 3;
     channels_[current_] = std::make_unique<LazChannel>(first);
     LazChannel& channel = *channels_[current_];
-    const auto returns = static_cast<uint8_t>(bytes[14]), flags = static_cast<uint8_t>(bytes[15]);
-    channel.number = returns & 15u;
-    channel.count = returns >> 4u;
-    channel.flags = (flags & 15u) | (flags >> 6u) << 4;
+    const uint32_t returns = static_cast<uint8_t>(bytes[14]);
+    channel.number = returns & 15;
+    channel.count = returns >> 4;
+    channel.flags = (flags & 15) | flags >> 6 << 4;
   }
 
   const ScanPoint& next() {
