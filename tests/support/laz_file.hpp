@@ -152,28 +152,33 @@ inline void step_record(std::string& record, uint8_t point_format, std::mt19937&
   change(is_recent ? 30 : time != 0 ? 28 : 20, record.size(), 6);
 }
 
-// A scan of LAS 1.4 or, for formats below 6, 1.2, in hundredths, of some points, with bytes of the
-// writer's own.
-inline std::string made_scan(uint8_t point_format, uint32_t points, uint32_t extra_bytes = 0,
-                             uint32_t seed = 1) {
+// A file of LAS 1.4 or, for formats below 6, 1.2, in hundredths, with these records of one size.
+inline std::string scan_of(uint8_t point_format, uint16_t point_bytes, const std::string& records) {
   const bool is_recent = point_format >= 6;
-  const auto point_bytes = static_cast<uint16_t>(kRecordBytes[point_format] + extra_bytes);
   const uint16_t head = is_recent ? 375 : 227;
+  const size_t points = records.size() / point_bytes;
   BinaryFile file;
   file.put(0, std::string("LASF")).put(24, uint8_t{1});
   file.put(25, static_cast<uint8_t>(is_recent ? 4 : 2)).put(94, head).put(96, uint32_t{head});
   file.put(104, point_format).put(105, point_bytes);
-  file.put(107, is_recent ? 0u : points);
+  file.put(107, is_recent ? 0u : static_cast<uint32_t>(points));
   for (size_t axis = 0; axis < 3; ++axis) file.put(131 + 8 * axis, 0.01).put(155 + 8 * axis, 0.0);
   file.put(head - 1u, '\0');
   if (is_recent) file.put(247, uint64_t{points});
+  return file.add(records.substr(0, points * point_bytes)).bytes();
+}
+
+// Some points, with bytes of the writer's own.
+inline std::string made_scan(uint8_t point_format, uint32_t points, uint32_t extra_bytes = 0,
+                             uint32_t seed = 1) {
+  const auto point_bytes = static_cast<uint16_t>(kRecordBytes[point_format] + extra_bytes);
   std::mt19937 random(seed);
-  std::string record(point_bytes, '\0'), all;
+  std::string record(point_bytes, '\0'), records;
   for (uint32_t i = 0; i < points; ++i) {
     step_record(record, point_format, random);
-    all += record;
+    records += record;
   }
-  return file.add(all).bytes();
+  return scan_of(point_format, point_bytes, records);
 }
 
 }  // namespace microtin::tests
