@@ -72,6 +72,8 @@ void run(const std::string& command, const Arguments& arguments) {
   } else if (command == "growth" && arguments.size() == 2) {
     const auto count = [&](const Work& work) { return instructions({work}, arguments[0])[0]; };
     print_linearity({"instructions", count, 64000}, arguments[1]);
+  } else if (command == "scans") {
+    print_scan_speed(arguments);
   } else if (command == "starts") {
     print_pack_starts();
   } else if (command == "train") {
@@ -95,7 +97,8 @@ void run(const std::string& command, const Arguments& arguments) {
         "peer-instructions FILE | cell FILE | autopilots CALLGRIND TERRAIN PACK PACK TER DAT DAT | "
         "grid TERRAIN GRID | flight TERRAIN PACK GRID LOG LOG LOG | linearity PLOT | growth FILE "
         "PLOT "
-        "| starts | train | streams FOLDER | curve-streams FOLDER | times STREAM... | "
+        "| scans [FILE...] | starts | train | streams FOLDER | curve-streams FOLDER | times "
+        "STREAM... | "
         "instructions FILE STREAM...");
   }
 }

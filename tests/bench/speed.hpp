@@ -19,6 +19,9 @@ void print_decode_speed(const std::vector<std::string>& paths, const Measure& me
 
 void print_encode_speed();
 
+// Points a second of reading made scans, as LAS and as LAZ, and files.
+void print_scan_speed(const std::vector<std::string>& paths);
+
 // Writes the streams that make the curve of bits against instructions into a folder.
 void write_curve_streams(const std::string& folder);
 
