@@ -25,7 +25,7 @@ constexpr uint32_t kModelledBits = 8;
 }  // namespace
 
 void LazModel::begin() {
-  while (4u << bucket_bits_ < symbols_) ++bucket_bits_;
+  while (1u << bucket_bits_ < symbols_) ++bucket_bits_;
   const uint32_t buckets = 1u << bucket_bits_;
   bucket_bits_ = kShareBits - bucket_bits_;
   counts_.assign(symbols_, 1);

@@ -39,7 +39,8 @@ class LazModel {
   std::vector<uint16_t> counts_;
   // Where the shares of a symbol begin, of 2^15 in all; one entry more has the end.
   std::vector<uint16_t> starts_;
-  // The symbol that has the first share of each bucket; one entry more has the last symbol.
+  // The symbol that has the first share of each bucket; one entry more has the last symbol. There
+  // are about as many buckets as symbols.
   std::vector<uint16_t> buckets_;
 };
 

@@ -15,9 +15,15 @@ namespace microtin::tests {
 // The shares of symbols, of 2^15 in all. They follow the counts now and then.
 class SymbolShares {
  public:
-  explicit SymbolShares(uint32_t symbols) : counts_(symbols, 1), begins_(symbols + 1) {
+  explicit SymbolShares(uint32_t symbols) : symbols_(symbols) {}
+
+  // Before each use; the first allocates memory, since most are never used.
+  void begin_use() {
+    if (cycle_ != 0) return;
+    counts_.assign(symbols_, 1);
+    begins_.resize(symbols_ + 1);
     share_out();
-    cycle_ = left_ = (symbols + 6) / 2;
+    cycle_ = left_ = (symbols_ + 6) / 2;
   }
 
   uint32_t begin(uint32_t symbol) const { return begins_[symbol]; }
@@ -51,6 +57,7 @@ class SymbolShares {
     begins_.back() = 32768;
   }
 
+  uint32_t symbols_;
   std::vector<uint32_t> counts_, begins_;
   uint32_t cycle_ = 0, left_ = 0;
 };
@@ -82,6 +89,7 @@ class BitShares {
 class LazEncoder {
  public:
   void symbol(SymbolShares& shares, uint32_t symbol) {
+    shares.begin_use();
     const uint32_t unit = length_ >> 15, begin = shares.begin(symbol) * unit;
     const uint32_t end = shares.is_last(symbol) ? length_ : shares.begin(symbol + 1) * unit;
     narrow(begin, end - begin);

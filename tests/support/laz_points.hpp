@@ -45,8 +45,12 @@ class FiveValues {
   bool largest_gives_way_ = true;
 };
 
+// a - b, modulo 2^32 or 2^64.
 inline int32_t wrapping_difference(int32_t a, int32_t b) {
   return static_cast<int32_t>(static_cast<uint32_t>(a) - static_cast<uint32_t>(b));
+}
+inline int64_t wrapping_difference(int64_t a, int64_t b) {
+  return static_cast<int64_t>(static_cast<uint64_t>(a) - static_cast<uint64_t>(b));
 }
 
 // x, y and z. Values are those of a record and of the one before.
@@ -110,7 +114,7 @@ class TimeEncoder {
   // How many sequences further a time is near the last one, if the current is not near. 0: stay.
   uint32_t further_of(int64_t time) const {
     for (uint32_t i = 0; i < 4; ++i) {
-      if (is_near(time - times_[(current_ + i) % 4])) return i;
+      if (is_near(wrapping_difference(time, times_[(current_ + i) % 4]))) return i;
     }
     return 0;
   }
@@ -126,7 +130,7 @@ class TimeEncoder {
   }
 
   void encode_first_step(LazEncoder& encoder, int64_t time) {
-    const int64_t difference = time - times_[current_];
+    const int64_t difference = wrapping_difference(time, times_[current_]);
     if (difference == 0 && shift_ == 0) return encoder.symbol(first_steps_, 0);
     if (!is_near(difference)) {
       encoder.symbol(first_steps_, 2 - shift_);
@@ -139,7 +143,7 @@ class TimeEncoder {
   }
 
   void encode_multiple(LazEncoder& encoder, int64_t time) {
-    const int64_t difference = time - times_[current_];
+    const int64_t difference = wrapping_difference(time, times_[current_]);
     if (difference == 0 && shift_ == 0) return encoder.symbol(multiples_, 511);
     if (!is_near(difference)) {
       encoder.symbol(multiples_, 512 - shift_);
