@@ -82,8 +82,9 @@ class LazPlaces {
   std::array<int32_t, 8> heights_{};
 };
 
-// Times of formats 1 and 3: up to four sequences, each with a usual step. Only the steps are kept,
-// since times differ from each other by multiples of them.
+// Times of formats 1 and 3: up to four sequences, of each of which a usual step is known or not.
+// Differences of times are multiples of the step, and a rest. Which symbol follows does not depend
+// on their values: a step that an encoder has found is never 0 again.
 class LazTimes {
  public:
   void read(LazDecoder& decoder) {
@@ -103,18 +104,12 @@ class LazTimes {
     return multiple < kLeast ? 5 : 6;
   }
 
-  struct Sequence {
-    int32_t step = 0;
-    int extremes = 0;  // differences that are far from its multiples
-  };
-
   // False: the time belongs to another sequence, which is now the current one.
   bool read_or_switch(LazDecoder& decoder) {
-    Sequence& sequence = sequences_[current_];
-    if (sequence.step != 0) return read_multiple(decoder, sequence);
+    if (has_step_[current_]) return read_multiple(decoder);
     const uint32_t symbol = decoder.symbol(first_steps_);
     if (symbol == 1) {
-      sequence = {static_cast<int32_t>(differences_.difference(decoder, 0)), 0};
+      has_step_[current_] = differences_.difference(decoder, 0) != 0;
     } else if (symbol == 2) {
       begin_sequence(decoder);
     } else if (symbol > 2) {
@@ -124,20 +119,16 @@ class LazTimes {
   }
 
   // The symbols stand for 0 .. 500 steps, -1 .. -10, none, a new sequence, and three others.
-  bool read_multiple(LazDecoder& decoder, Sequence& sequence) {
+  bool read_multiple(LazDecoder& decoder) {
     const uint32_t symbol = decoder.symbol(multiples_);
-    if (symbol > kNew) current_ = (current_ + symbol - kNew) % 4;
-    if (symbol == kNew) begin_sequence(decoder);
-    if (symbol >= kUnchanged) return symbol <= kNew;
-    const bool is_extreme = symbol == 0 || symbol == kMost || symbol == kLeast;
-    const uint32_t difference = differences_.difference(decoder, context_of(symbol));
-    if (symbol == 1) sequence.extremes = 0;
-    if (is_extreme && ++sequence.extremes > 3) {
-      const uint32_t factor = symbol == kLeast ? 0u - 10u : symbol;
-      sequence = {static_cast<int32_t>(factor * static_cast<uint32_t>(sequence.step) + difference),
-                  0};
+    if (symbol < kUnchanged) {
+      differences_.difference(decoder, context_of(symbol));
+    } else if (symbol == kNew) {
+      begin_sequence(decoder);
+    } else if (symbol > kNew) {
+      current_ = (current_ + symbol - kNew) % 4;
     }
-    return true;
+    return symbol <= kNew;
   }
 
   void begin_sequence(LazDecoder& decoder) {
@@ -145,12 +136,12 @@ class LazTimes {
     decoder.raw(16);
     decoder.raw(16);
     newest_ = current_ = (newest_ + 1) % 4;
-    sequences_[current_] = {};
+    has_step_[current_] = false;
   }
 
   LazModel first_steps_{6}, multiples_{516};
   LazIntegers differences_{32, 9};
-  std::array<Sequence, 4> sequences_{};
+  std::array<bool, 4> has_step_{};
   uint32_t current_ = 0, newest_ = 0;
 };
 
