@@ -10,6 +10,7 @@
 
 #include "microtin/surface.hpp"
 #include "tests/support/join.hpp"
+#include "tests/support/laz_file.hpp"
 #include "tests/support/session.hpp"
 #include "tests/support/slow.hpp"
 
@@ -343,8 +344,12 @@ TEST_CASE("mosaic: a folder of scans is verified by the classes that were taken"
   const Session session;
   fs::create_directory(session.folder() + "/scans");
   session.write("scans/a.las", scan());
-  REQUIRE(session.run("encode scans --classes 2,5 -o t.mtin").code == 0);
-  CHECK(contains(session.run("verify t.mtin scans").out, "points: 4\n"));
+  session.write("a.laz", compressed(scan()));
+  for (const std::string name : {"scans", "a.laz"}) {
+    REQUIRE(session.run("encode " + name + " --classes 2,5 -o t.mtin").code == 0);
+    CHECK(contains(session.run("verify t.mtin " + name).out, "points: 4\n"));
+    CHECK(session.run("render t.mtin -o t.png --width 300 --source " + name).code == 0);
+  }
 }
 
 TEST_CASE("clouds: the memory that they need is reported before they are read") {

@@ -167,6 +167,8 @@ TEST_CASE("laz: an error names the chunk") {
             "again");
   CHECK(laz_error(with_byte(laz, points + 8 + 34 + 3, 1)) ==
         place + "ends before its layers do; copy the file again");
+  CHECK(laz_error(with_byte(laz, points + 8 + 34 + 4 * 8 + 3, 1)) ==
+        place + "ends before its layers do; copy the file again");
   BinaryFile file;
   file.add(laz).put(points + 8 + 34, uint32_t{0});
   CHECK(laz_error(file.bytes()) == place + "has no layer of x and y; copy the file again");
@@ -181,7 +183,7 @@ TEST_CASE("laz: symbols, bits and integers are what was encoded, also the extrem
   IntegerEncoder integers(32, 2), shorts(16, 1);
   std::mt19937 random(5);
   std::vector<uint32_t> values;
-  for (uint32_t i = 0; i < 30000; ++i) {
+  for (uint32_t i = 0; i < 60000; ++i) {
     values.push_back(i % 9 == 0 ? 0x80000000u : static_cast<uint32_t>(random() >> random() % 32));
     encoder.symbol(few, values.back() % 3 / 2);
     encoder.symbol(many, values.back() % 515);

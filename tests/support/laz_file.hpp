@@ -121,8 +121,10 @@ inline std::string compressed(const std::string& las, const LazOptions& options 
 
 inline constexpr uint16_t kRecordBytes[] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 
-// A record of a walk through all values that a format has: what is rare changes rarely.
-inline void step_record(std::string& record, uint8_t point_format, std::mt19937& random) {
+// A record of a walk through all values that a format has: what is rare changes rarely. `pace` is
+// the usual step of times.
+inline void step_record(std::string& record, uint8_t point_format, int64_t pace,
+                        std::mt19937& random) {
   const bool is_recent = point_format >= 6;
   const auto once_in = [&](uint32_t times) { return random() % times == 0; };
   const auto put = [&](size_t at, auto value) { std::memcpy(&record[at], &value, sizeof value); };
@@ -147,7 +149,7 @@ inline void step_record(std::string& record, uint8_t point_format, std::mt19937&
     const int64_t steps = once_in(60)   ? static_cast<int64_t>(random()) << 20
                           : once_in(10) ? static_cast<int64_t>(random() % 1200) - 600
                                         : 1;
-    put(time, number_at<int64_t>(record, time) + steps * 1000 + (once_in(2) ? 3 : 0));
+    put(time, number_at<int64_t>(record, time) + steps * pace + (once_in(2) ? 3 : 0));
   }
   change(is_recent ? 30 : time != 0 ? 28 : 20, record.size(), 6);
 }
@@ -174,8 +176,9 @@ inline std::string made_scan(uint8_t point_format, uint32_t points, uint32_t ext
   const auto point_bytes = static_cast<uint16_t>(kRecordBytes[point_format] + extra_bytes);
   std::mt19937 random(seed);
   std::string record(point_bytes, '\0'), records;
+  constexpr int64_t kPaces[] = {1000, 700000, -15000, 20};
   for (uint32_t i = 0; i < points; ++i) {
-    step_record(record, point_format, random);
+    step_record(record, point_format, kPaces[i / 100 % 4], random);
     records += record;
   }
   return scan_of(point_format, point_bytes, records);
