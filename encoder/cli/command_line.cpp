@@ -202,6 +202,7 @@ void add_verify(CLI::App& app, Action& action) {
   command.add_flag("--never-below", request->never_below,
                    "Fail also if the surface is below the source anywhere");
   add_error_map(command, request->preparation, "the file states the bound elsewhere");
+  add_breaklines(command, request->breaklines, "Fail also if edges do not follow");
   add_json(command, request->json);
   command.callback([request, &action] { action = [request] { run_verify(*request); }; });
 }

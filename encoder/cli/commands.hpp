@@ -25,6 +25,7 @@ struct EncodeRequest : EncodeOptions {
   std::string output;
   std::optional<TileRange> tiles;  // a shard of a pack, with these
   Preparation preparation;
+  std::string breaklines;  // the file of lines that become edges; empty: none
 };
 
 void run_encode(const EncodeRequest& request);
@@ -115,6 +116,7 @@ struct VerifyRequest {
   std::string input;
   std::string source;
   Preparation preparation;  // as the stream was encoded
+  std::string breaklines;   // the file of lines that must be edges; empty: none
   bool never_below = false;
   bool json = false;
 };

@@ -2,6 +2,7 @@
 // The commands encode, plan, update and merge: streams and packs from a terrain, and what to say of
 // them.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "encoder/exact/units.hpp"
 #include "encoder/files/descriptors.hpp"
 #include "encoder/files/output.hpp"
+#include "encoder/import/breaklines.hpp"
 #include "encoder/import/cloud.hpp"
 #include "encoder/import/prepared_terrain.hpp"
 #include "encoder/import/reference.hpp"
@@ -33,7 +35,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<std::string> inputs_of(const EncodeRequest& request) {
-  return files_of(request.input, request.preparation);
+  std::vector<std::string> files = files_of(request.input, request.preparation);
+  if (!request.breaklines.empty()) files.push_back(request.breaklines);
+  return files;
 }
 
 bool makes_pack(const EncodeRequest& request) {
@@ -117,6 +121,38 @@ std::string source_of(const Source& source, const Verification& measured) {
   return source_of_posts(measured.posts, measured.voids, raster.mended, raster.selection);
 }
 
+Decimal half_of(Decimal step) {
+  return make_decimal(Wide{step.mantissa} * 5, step.decimals + 1);
+}
+
+// A decimal that is not exact, with few digits, rounded up.
+std::string few_digits(double value) {
+  constexpr double kParts = 1000;
+  return to_string(make_decimal(static_cast<int64_t>(std::ceil(value * kParts - 1e-6)), 3));
+}
+
+std::string along_lines(const EncodedStream& encoded) {
+  if (!encoded.breaklines) return "";
+  const auto& [found, cost] = *encoded.breaklines;
+  std::string text = "breaklines: " + std::to_string(found.lines) + " lines are " +
+                     std::to_string(found.pieces) + " edges between " +
+                     std::to_string(cost.on_lines) + " vertices, of which " +
+                     std::to_string(std::max<int64_t>(cost.added, 0)) +
+                     " were added for edges that were missing; they lie within " +
+                     few_digits(found.max_shift) + " steps of the lines";
+  if (found.max_error > 0) {
+    const double unit = step_of(encoded.laid.placement.z);
+    text += ", heights within " + few_digits(found.max_error * unit);
+  }
+  text += '\n';
+  if (cost.unit_pieces != 0) {
+    text += "... " + std::to_string(cost.unit_pieces) +
+            " edges have the length of a step: with --xy-step " +
+            to_string(half_of(encoded.laid.xy_step)) + " lines need fewer vertices\n";
+  }
+  return text;
+}
+
 std::string stream_report(const Source& source, const EncodedStream& encoded,
                           const EncodeRequest& request) {
   const Laid& laid = encoded.laid;
@@ -138,7 +174,7 @@ std::string stream_report(const Source& source, const EncodedStream& encoded,
   }
   text << '\n'
        << own_bounds(encoded.bounds) << at_true_places(encoded.true_places, encoded.bound, request)
-       << beyond(measured, encoded.everywhere);
+       << beyond(measured, encoded.everywhere) << along_lines(encoded);
   return text.str();
 }
 
@@ -235,6 +271,9 @@ std::string encode_tiles(const EncodeRequest& request, OutputFile& out) {
 }
 
 std::string encode_tiled(const EncodeRequest& request, OutputFile& out) {
+  if (!request.breaklines.empty()) {
+    throw Error("--breaklines is for streams; make a stream (.mtin), or leave it out");
+  }
   if (request.tiles) return encode_tiles(request, out);
   const OpenSource source = prepared_source(request.input, request.preparation);
   if (const auto* cloud = std::get_if<PointCloud>(&source)) {
@@ -249,9 +288,13 @@ std::string encode_whole(const EncodeRequest& request, OutputFile& out) {
   if (const auto* const cloud = std::get_if<PointCloud>(&source)) {
     announce_grid(request, *cloud);
   }
+  EncodeOptions options = request;
+  if (!request.breaklines.empty()) {
+    options.lattice.breaklines = read_breaklines(request.breaklines);
+  }
   const EncodedStream encoded = with_file_context(request.input, [&] {
     ProgressBar bar;
-    return encode_stream(source, request, bar.progress());
+    return encode_stream(source, options, bar.progress());
   });
   out.write(encoded.stream);
   return stream_report(source, encoded, request) + units(request, reference_of(source));

@@ -223,6 +223,8 @@ void add_encode(CLI::App& app, Action& action) {
   add_output(command, request->output,
              "Write this stream (.mtin) or pack (.mtp); - is standard output");
   add_encode_options(command, request);
+  begin_group(command, "Lines");
+  add_breaklines(command, request->breaklines, "Make edges of a stream along");
   begin_group(command, "Shards of a pack");
   const auto read = [request](const std::string& text) {
     return read_tiles(text, request->tiles.emplace());

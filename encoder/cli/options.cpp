@@ -227,6 +227,13 @@ void add_error_map(CLI::App& command, Preparation& preparation, const std::strin
                elsewhere);
 }
 
+void add_breaklines(CLI::App& command, std::string& path, const std::string& description) {
+  add_text(command, "--breaklines FILE", path,
+           description +
+               " the lines of this file: GeoJSON (.geojson), or text with x, y and maybe z on each "
+               "line and an empty line between lines");
+}
+
 void add_preparation(CLI::App& command, Preparation& preparation) {
   begin_group(command, "How the terrain is read");
   const auto read = [&preparation](const std::string& text) {

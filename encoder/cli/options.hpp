@@ -112,6 +112,9 @@ void add_indirect(CLI::App& command, Preparation& preparation);
 // The option --error-map; `elsewhere` ends the description.
 void add_error_map(CLI::App& command, Preparation& preparation, const std::string& elsewhere);
 
+// The option --breaklines.
+void add_breaklines(CLI::App& command, std::string& path, const std::string& description);
+
 // For encoding, and alike for every comparison with the source.
 void add_preparation(CLI::App& command, Preparation& preparation);
 

@@ -5,6 +5,7 @@
 #include "encoder/cli/progress.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/files/output.hpp"
+#include "encoder/import/breaklines.hpp"
 #include "encoder/product/document.hpp"
 #include "encoder/verify/everywhere.hpp"
 
@@ -50,6 +51,13 @@ JsonObject report_of(const Original::Judgement& judgement, const Metadata& notes
     report.emplace_back("water_moved", json(judgement.water_moved));
   }
   return report;
+}
+
+std::string text_of(const FoundBreaklines& found, const Placement& placement) {
+  return json(JsonObject{{"lines", json(found.lines)},
+                         {"edges", json(found.pieces)},
+                         {"max_shift", json(found.max_shift)},
+                         {"max_error", json(found.max_error * step_of(placement.z))}});
 }
 
 // What was overridden or converted of the source's units and systems.
@@ -133,6 +141,7 @@ void run_verify(const VerifyRequest& request) {
   const std::string& input = request.input;
   std::vector<std::string> inputs = files_of(request.source, request.preparation);
   inputs.push_back(input);
+  if (!request.breaklines.empty()) inputs.push_back(request.breaklines);
   refuse_overwriting(inputs, "-");
   const Document document(input);
   const Original original(document, request.source, request.preparation);
@@ -142,11 +151,17 @@ void run_verify(const VerifyRequest& request) {
   if (original.raster() != nullptr && !original.raster()->selection.empty()) {
     report.emplace_back("source", json(original.raster()->selection));
   }
+  std::optional<FoundBreaklines> lines;
+  if (!request.breaklines.empty()) {
+    lines = original.breaklines(read_breaklines(request.breaklines));
+    report.emplace_back("breaklines", text_of(*lines, document.metadata().placement));
+  }
   add_warnings(report, original);
   const bool told = tell(text_of(report, request.json));
   expect_kept(judgement, input);
   if (request.never_below) expect_side(BoundSide::kNeverBelow, judgement, input);
   expect_stated(judgement, document.metadata(), input);
+  if (lines && lines->missing) throw Error(input + ": breaklines: " + *lines->missing);
   if (!told) throw ReportLost(input + ": keeps its promises, but nobody reads the report");
 }
 

@@ -49,6 +49,12 @@ std::size_t Decimation::remove_and_move_vertices(double done, const Progress& pr
   return try_each(progress, [this](Index v) { return try_move(v); });
 }
 
+bool Decimation::remove_vertex(Index v) {
+  const bool is_removed = try_removal(v);
+  keep_edits();
+  return is_removed;
+}
+
 // The coder learns how often coordinates are even: odd ones cost more by that.
 double Decimation::even_part() const {
   std::size_t even = 0;

@@ -33,6 +33,10 @@ class Decimation {
   // `done`: how much of the search is over, 0 .. 1.
   std::size_t remove_and_move_vertices(double done, const Progress& progress);
 
+  // Removes a vertex that is not fixed, if its neighbours keep all bounds then. Says whether they
+  // do.
+  bool remove_vertex(Index v);
+
   // What `centre` and `add_vertices` bring nearer zero: the mean error, in steps.
   void aim(double mean);
 

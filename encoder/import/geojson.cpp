@@ -229,6 +229,7 @@ class FeatureReader {
       const std::vector<Value>& numbers = array_of(&place, parent);
       if (numbers.size() < 2) fail(place, "a position has fewer than two numbers");
       line.push_back({coordinate_of(numbers[0]), coordinate_of(numbers[1])});
+      if (numbers.size() > 2) line.back().z = coordinate_of(numbers[2]);
     }
     if (line.size() < 2) fail(parent, "a line has fewer than two positions");
     return line;

@@ -211,6 +211,10 @@ class Budget {
       guess_ = real(*bounds_of(source_).unscaled);
       return false;
     }
+    if (!asked_.lattice.breaklines.empty()) {  // which need a bound
+      guess_ = real(largest_) / 10;
+      return false;
+    }
     EncodeOptions options = asked_;
     options.max_bytes = 0;
     options.lattice.never_below = false;
@@ -313,7 +317,7 @@ class Budget {
       bound = search.bound_for((last ? kLastAim : kWideAim) * limit_);
       if (bound <= least) bound = least;
       lattice.max_error = bound;
-      Approximation wide{lay_out_at_step(tight.laid.z_step), tight.tin};
+      Approximation wide{lay_out_for(tight.tin, tight.laid.z_step), tight.tin};
       search_further(wide, rounds_of_a_piece(), simplify_for(costs_.widening));
       size = take(std::move(wide));
       if (fits(size) && (bound <= least || size >= kUsed * limit_)) return;
@@ -323,10 +327,14 @@ class Budget {
 
   uint32_t rounds_of_a_piece() const { return std::max(rounds_of(options_.search) / kPieces, 1u); }
 
-  Laid lay_out_at_step(Decimal z_step) const {
+  // A layout for a surface from which the search goes on; breaklines may have left vertices there
+  // that this bound does not need.
+  Laid lay_out_for(const Tin& tin, Decimal z_step) const {
     LatticeOptions lattice = options_.lattice;
     lattice.z_step = z_step;
-    return lay_out(source_, lattice);
+    Laid laid = lay_out(source_, lattice);
+    if (!laid.breaklines.empty()) add_missing_samples(laid.survey, tin, laid.line_room);
+    return laid;
   }
 
   // Bounds that hold where points truly lie, for each of which limits narrow in several attempts.
@@ -369,7 +377,7 @@ class Budget {
     options_.lattice.max_error = next_bound();
     Approximation next;
     try {
-      next.laid = lay_out_at_step(surface_->z_step);
+      next.laid = lay_out_for(surface_->tin, surface_->z_step);
     } catch (const Error&) {
       return false;
     }

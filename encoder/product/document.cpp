@@ -15,6 +15,7 @@
 #include "encoder/pack/surface.hpp"
 #include "encoder/product/phases.hpp"
 #include "encoder/stream/header.hpp"
+#include "encoder/terrain/breaklines.hpp"
 #include "encoder/terrain/clouds.hpp"
 #include "encoder/verify/everywhere.hpp"
 #include "encoder/verify/verify.hpp"
@@ -191,6 +192,25 @@ Verification Original::compare(const std::optional<Decimal>& bound, const Progre
   const auto& source = std::get<OpenSource>(source_);
   if (cloud() != nullptr) return verify(pack, *cloud(), bound, visit);
   return verify(pack, *std::get<std::unique_ptr<RasterReader>>(source), bound, progress, visit);
+}
+
+FoundBreaklines Original::breaklines(const std::vector<RealLine>& lines) const {
+  const auto* const source = std::get_if<Source>(&source_);
+  if (source == nullptr) {
+    throw Error(document_.path() + ": is a pack, and " + parameter("breaklines") +
+                " is for streams; leave it out");
+  }
+  const Metadata metadata = document_.metadata();
+  const Placement& lattice = metadata.placement;
+  const std::optional<Decimal> bound = promise().bound;
+  std::optional<LineRoom> room;
+  if (bound) {
+    room = terrain::room_of(*bound, metadata.side == BoundSide::kNeverBelow,
+                            exact::step_of(lattice.z));
+  }
+  return find_breaklines(document_.stream()->terrain.mesh(),
+                         lines_over(terrain::line_ground_of(*source, lattice), lines, lattice),
+                         room, lattice);
 }
 
 Original::Judgement Original::judge(const Progress& progress) const {

@@ -15,6 +15,8 @@
 #include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
 #include "encoder/stream/decoded_terrain.hpp"
+#include "encoder/terrain/polygons.hpp"
+#include "encoder/verify/breaklines.hpp"
 #include "encoder/verify/verify.hpp"
 
 namespace microtin::product {
@@ -105,6 +107,10 @@ class Original {
   };
   // Throws Error also if only one of document and terrain has bounds of an error map.
   Judgement judge(const Progress& progress) const;
+
+  // Looks for lines among the edges, at heights within the bound that is promised. Throws Error for
+  // a pack.
+  FoundBreaklines breaklines(const std::vector<RealLine>& lines) const;
 
  private:
   const Document& document_;

@@ -7,16 +7,20 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "encoder/base/error.hpp"
 #include "encoder/export/height_sampler.hpp"
+#include "encoder/fit/breaklines.hpp"
 #include "encoder/pack/point_pack.hpp"
 #include "encoder/product/budget.hpp"
 #include "encoder/product/phases.hpp"
 #include "encoder/product/true_bound.hpp"
 #include "encoder/stream/device_memory.hpp"
 #include "encoder/stream/encode.hpp"
+#include "encoder/terrain/breaklines.hpp"
 #include "encoder/terrain/clouds.hpp"
+#include "encoder/verify/breaklines.hpp"
 #include "encoder/verify/everywhere.hpp"
 #include "encoder/verify/verify.hpp"
 #include "encoder/verify/water_gauge.hpp"
@@ -35,8 +39,9 @@ void check_vertices(const Tin& tin, const EncodeOptions& options) {
                 " vertices; increase the error or make a pack (.mtp)");
   }
   if (limit != 0 && vertices > limit) {
-    throw Error(parameter("max_vertices") + ' ' + std::to_string(limit) +
-                " is too small: outline and voids alone need " + std::to_string(vertices));
+    throw Error(parameter("max_vertices") + ' ' + std::to_string(limit) + " is too small: outline" +
+                (options.lattice.breaklines.empty() ? " and voids" : ", voids and breaklines") +
+                " alone need " + std::to_string(vertices));
   }
 }
 
@@ -53,6 +58,23 @@ void expect_promises(const Verification& measured, const WaterGauge& gauge,
       measured.voids_answered != 0 || gauge.moved() != 0) {
     throw InternalFault("the decoded terrain does not meet the options");
   }
+}
+
+// Throws Error if a line is no chain of edges of the decoded terrain.
+FoundBreaklines expect_breaklines(const microtin_mesh* mesh, const Source& source,
+                                  const LatticeOptions& lattice, const Placement& placement) {
+  const std::vector<LatticeLine> lines =
+      lines_over(terrain::line_ground_of(source, placement), lattice.breaklines, placement);
+  std::optional<LineRoom> room;
+  if (lattice.max_error) {
+    room = terrain::room_of(*lattice.max_error, lattice.never_below, exact::step_of(placement.z));
+  }
+  FoundBreaklines found = verifying::find_breaklines(mesh, lines, room, placement);
+  if (found.missing) {
+    throw Error(parameter("breaklines") + ": " + *found.missing + "; use a smaller " +
+                parameter("xy_step") + ", or a larger " + parameter("max_error"));
+  }
+  return found;
 }
 
 Metadata metadata_for(const Source& source, const EncodeOptions& options, const Laid& laid) {
@@ -114,6 +136,7 @@ void note_accuracy(EncodedStream& encoded, const EncodeOptions& options, Miss mi
 // The lattice's options become those of the next attempt.
 Attempt assess(const Source& source, const EncodeOptions& options, LatticeOptions& lattice,
                Approximation&& found, Miss miss) {
+  const BreaklineCost cost = keep_breaklines(found.laid, found.tin);
   check_vertices(found.tin, options);
   const std::optional<Decimal>& bound = lattice.max_error;
   Metadata metadata = metadata_for(source, options, found.laid);
@@ -139,9 +162,14 @@ Attempt assess(const Source& source, const EncodeOptions& options, LatticeOption
                   microtin_mesh_vertex_count(decoded.mesh()),
                   measured,
                   std::nullopt,
+                  std::nullopt,
                   std::nullopt},
                  0};
   EncodedStream& encoded = result.encoded;
+  if (!lattice.breaklines.empty()) {
+    encoded.breaklines =
+        Breaklines{expect_breaklines(decoded.mesh(), kept, lattice, metadata.placement), cost};
+  }
   if (cloud != nullptr) {
     const bool is_kept = options.bound_at == BoundAt::kTruePlaces && miss == Miss::kNarrows;
     measure_true_places(std::get<PointCloud>(kept), decoded.mesh(), is_kept, lattice, result);
@@ -262,6 +290,10 @@ EncodedStream encode_stream(const Source& source, const EncodeOptions& asked,
   const bool scales = bounds_of(source).unscaled && (options.max_bytes | options.max_vertices) != 0;
   if (scales) refuse_scaling(source, options);
   const bool is_bounded = options.lattice.max_error && !scales;
+  if (!options.lattice.breaklines.empty() && !limited && !is_bounded) {
+    throw Error(parameter("breaklines") + " needs a bound; use " + parameter("max_error") + ", " +
+                parameter("max_bytes") + " or " + parameter("max_vertices"));
+  }
   if (!limited || is_bounded) return encode_measured(source, options, progress);
   return encode_within_budget(source, options, progress);
 }

@@ -7,13 +7,20 @@
 #include <optional>
 #include <vector>
 
+#include "encoder/fit/breaklines.hpp"
 #include "encoder/fit/simplify.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/product/options.hpp"
 #include "encoder/terrain/lay_out.hpp"
+#include "encoder/verify/breaklines.hpp"
 #include "encoder/verify/verify.hpp"
 
 namespace microtin::product {
+
+struct Breaklines {
+  FoundBreaklines found;  // by the decoder's triangles
+  BreaklineCost cost;
+};
 
 struct EncodedStream {
   Laid laid;
@@ -24,15 +31,16 @@ struct EncodedStream {
   Verification verification;
   std::optional<Verification> true_places;  // of points that the lattice moves
   std::optional<Distances> everywhere;      // of a raster, as the header states them
+  std::optional<Breaklines> breaklines;     // if there are such lines
 };
 
 // Chooses, encodes, decodes with the shipped decoder, and compares that with every post or point:
 // what is returned keeps the bound, covers all heights, leaves all voids open and keeps water at
-// its level. Points keep max_error where they truly lie, too, unless options leave that: after each
-// attempt limits become narrower where one does not. With a limit of bytes or vertices, that is the
-// smallest bound found whose stream keeps the limit, in about the time of four encodings, or of
-// more where the lattice moves points so far that bounds must be tried at their true places. Throws
-// Error if what is asked for cannot be had.
+// its level, and all breaklines are chains of edges. Points keep max_error where they truly lie,
+// too, unless options leave that: after each attempt limits become narrower where one does not.
+// With a limit of bytes or vertices, that is the smallest bound found whose stream keeps the limit,
+// in about the time of four encodings, or of more where the lattice moves points so far that bounds
+// must be tried at their true places. Throws Error if what is asked for cannot be had.
 EncodedStream encode_stream(const Source& source, const EncodeOptions& asked,
                             const Progress& progress);
 

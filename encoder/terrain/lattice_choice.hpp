@@ -10,6 +10,7 @@
 
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/terrain/polygons.hpp"
 #include "encoder/terrain/source.hpp"
 #include "shared/lattice.hpp"
 
@@ -32,6 +33,7 @@ struct LatticeOptions {
   std::optional<Decimal> water_level = {};
   DuplicateRule duplicates = DuplicateRule::kMiddle;  // of points
   std::vector<Tightening> tightenings = {};           // by place
+  std::vector<RealLine> breaklines = {};              // which become edges; with a bound
 };
 
 // The maps take the source's numbers, refined to multiples of 10^-decimals, to the lattice.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/lattice_map.hpp"
@@ -271,6 +272,24 @@ void tighten(std::vector<Sample>& samples, const std::vector<Tightening>& tighte
                      [](const Sample& a, const Sample& b) { return a.place < b.place; });
 }
 
+// Chains for the breaklines, and their samples.
+void add_breaklines(const LatticeOptions& options, const Lattice& lattice, Laid& laid) {
+  if (options.breaklines.empty() || !options.max_error) return;
+  const auto spacing = [](const LatticeMap& map) {
+    return static_cast<double>(map.scale) / static_cast<double>(map.step);
+  };
+  const LineGround ground = line_ground_of(laid.survey, spacing(lattice.x), spacing(lattice.y));
+  laid.line_room =
+      room_of(*options.max_error, options.never_below, exact::step_of(laid.placement.z));
+  laid.breaklines =
+      chains_of(lines_over(ground, options.breaklines, laid.placement), laid.line_room);
+  std::vector<Pin> pins;
+  for (const Chain& chain : laid.breaklines) {
+    for (const LineVertex& vertex : chain.vertices) add_pins(chain.line, vertex, pins);
+  }
+  pin(laid.survey, std::move(pins), laid.line_room, laid.placement);
+}
+
 void refuse_unbounded(const OwnBounds& own) {
   if (std::find(own.numbers.begin(), own.numbers.end(), kUnbounded) == own.numbers.end()) return;
   throw Error(parameter("never_below") + ": the " + parameter("error_map") +
@@ -306,12 +325,13 @@ Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions&
   laid.survey.samples = make_samples(placing.posts(), sampler);
   sampler.check(lattice.placement, source);
   laid.merged = placing.posts().size() - laid.survey.samples.size();
-  tighten(laid.survey.samples, options.tightenings);
   check_voids(placing.voids(), laid.survey.samples, lattice.placement);
   laid.survey.voids = placing.voids();
   laid.placement = lattice.placement;
-  laid.xy_step = make_decimal(lattice.x.step, lattice.xy_decimals);
   laid.z_step = make_decimal(lattice.z.step, lattice.z_decimals);
+  add_breaklines(options, lattice, laid);
+  tighten(laid.survey.samples, options.tightenings);
+  laid.xy_step = make_decimal(lattice.x.step, lattice.xy_decimals);
   laid.xy_displacement = placing.xy_displacement();
   laid.z_displacement = placing.z_displacement();
   return laid;

@@ -3,7 +3,10 @@
 #ifndef MICROTIN_ENCODER_TERRAIN_LAY_OUT_HPP
 #define MICROTIN_ENCODER_TERRAIN_LAY_OUT_HPP
 
+#include <vector>
+
 #include "encoder/layers.hpp"
+#include "encoder/terrain/breaklines.hpp"
 #include "encoder/terrain/lattice_choice.hpp"
 #include "encoder/terrain/survey.hpp"
 
@@ -14,14 +17,18 @@ struct Laid {
   Placement placement;
   Survey survey;
   Decimal xy_step, z_step;
-  Decimal xy_displacement;  // largest along x or y, by moving to the lattice
-  Decimal z_displacement;   // largest by rounding to whole steps
-  uint64_t merged = 0;      // points that came to a place already taken
+  Decimal xy_displacement;        // largest along x or y, by moving to the lattice
+  Decimal z_displacement;         // largest by rounding to whole steps
+  uint64_t merged = 0;            // points that came to a place already taken
+  std::vector<Chain> breaklines;  // whose vertices are fixed samples of the survey
+  LineRoom line_room;
 };
 
 // A point goes to the nearest place, halves up. Points that share a place become one sample: with
 // the middle of their lowest and highest height, or as the options' rule says. A void post that
 // shares a place with a sample is dropped.
+//
+// Vertices of breaklines become samples, too, which are fixed.
 //
 // Throws Error if an explicit step does not fit, or if the bound cannot be kept: at places whose
 // points differ by more than twice the bound, or where no whole z step lies within the bound.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,7 +17,8 @@ namespace microtin::terrain {
 
 // In real coordinates.
 struct RealPoint {
-  Decimal x, y;  // at most 12 decimals
+  Decimal x, y;                   // at most 12 decimals
+  std::optional<Decimal> z = {};  // of lines that have heights
 };
 
 using RealLine = std::vector<RealPoint>;

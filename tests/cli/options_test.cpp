@@ -106,6 +106,7 @@ const std::vector<OptionRow> kOptionRows = {
     {"encode", "--tile-size", "t.asc --max-error 2 --tile-vertices 90 -o o.mtp", "9"},
     {"encode", "--device-ram", "t.asc -o o.mtin", "9000"},
     {"encode", "--error-map", "t.asc --max-error 2 -o o.mtin", "bounds.geojson"},
+    {"encode", "--breaklines", "t.asc --max-error 2 -o o.mtin", "route.geojson"},
     {"encode", "--for", "t.asc --device-ram 60000 -o o.mtin", "inav"},
     {"encode", "--never-below", "t.asc --max-error 2 -o o.mtin", ""},
     {"encode", "--bound-at", "p.xyz --max-error 2 --xy-step 0.05 -o o.mtin", "lattice"},
@@ -188,6 +189,7 @@ const std::vector<OptionRow> kOptionRows = {
     {"verify", "--gridded", "t.mtin g.xyz", ""},
     {"verify", "--never-below", "m.mtin t.asc", ""},
     {"verify", "--error-map", "bounded.mtp t.asc", "bounds.geojson"},
+    {"verify", "--breaklines", "m.mtin t.asc", "route.geojson"},
     {"verify", "--fill-voids", "m.mtin t.asc", "1"},
     {"verify", "--water-level", "m.mtin t.asc", "50"},
     {"verify", "--cells", "t.mtin t.asc", "list"},
@@ -347,7 +349,8 @@ TEST_CASE("options: none is without a row") {
     const Names options = without(options_of(session, command), {"--allow-vrt", "--band"});
     CHECK(text_of(options) == text_of(known));
   }
-  const Names encode = without(options_of(session, "encode"), {"--output", "--resume", "--shard"});
+  const Names encode =
+      without(options_of(session, "encode"), {"--output", "--resume", "--shard", "--breaklines"});
   CHECK(text_of(options_of(session, "plan")) == text_of(united(encode, {"--shards"})));
   // Each of update is also one of encode, and read by the same code.
   CHECK(text_of(without(options_of(session, "update"), options_of(session, "encode"))) == "");
@@ -394,7 +397,7 @@ const Names kWithoutEffect = {"", "--bound-at", "--duplicates"};
 // With which no shard of posts is made, or which say which shard.
 const Names kNotOfShards = {"--digest",  "--phases",     "--max-vertices", "--max-bytes",
                             "--xy-step", "--device-ram", "--output",       "--shard",
-                            "--classes", "--gridded",    "--for"};
+                            "--classes", "--gridded",    "--for",          "--breaklines"};
 
 const std::vector<std::string> kCommon = {"--max-error 1.9", "--z-step 0.5", "--tile-vertices 60",
                                           "--tile-size 10"};

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Whether lines are chains of edges of a decoded terrain.
+#ifndef MICROTIN_ENCODER_VERIFY_BREAKLINES_HPP
+#define MICROTIN_ENCODER_VERIFY_BREAKLINES_HPP
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "encoder/layers.hpp"
+#include "encoder/terrain/breaklines.hpp"
+#include "microtin/microtin.h"
+
+namespace microtin::verifying {
+
+struct FoundBreaklines {
+  uint64_t lines = 0;    // of the file, at least partly over the terrain
+  uint64_t pieces = 0;   // edges along them
+  double max_shift = 0;  // between a line and its edges, in lattice steps
+  double max_error = 0;  // between their heights, in z steps; of lines that have heights
+  std::optional<std::string> missing;  // which line has no such chain, and where
+};
+
+// Looks along each line for edges that follow it from its beginning to its end, at most kMostShift
+// lattice steps away, and at heights within the room. Without room heights are only measured.
+// O(triangles + vertices near the lines * their degrees).
+FoundBreaklines find_breaklines(const microtin_mesh* mesh, const std::vector<LatticeLine>& lines,
+                                const std::optional<LineRoom>& room, const Placement& lattice);
+
+}  // namespace microtin::verifying
+
+#endif
