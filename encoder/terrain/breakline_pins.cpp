@@ -14,7 +14,7 @@
 namespace microtin::terrain {
 namespace {
 
-constexpr double kUnit = 65536;  // of the heights of samples, in a z step
+constexpr double kPartsOfStep = 65536;  // of the heights of samples, in a z step
 
 // Heights from lowest to highest, in 2^-16 z steps.
 struct Limits {
@@ -35,8 +35,8 @@ Limits around_height(double height, double radius) {
   const auto within = [](double number) {
     return static_cast<int64_t>(std::clamp(number, -2147483648.0, 2147483647.0));
   };
-  return {within(std::ceil((height - radius) * kUnit)),
-          within(std::floor((height + radius) * kUnit))};
+  return {within(std::ceil((height - radius) * kPartsOfStep)),
+          within(std::floor((height + radius) * kPartsOfStep))};
 }
 
 int32_t height_number(double height) {
@@ -72,7 +72,7 @@ double height_nearby(const std::vector<Sample>& samples, Point p) {
         const double dx = double{0} + x - p.x, dy = double{0} + at->place.y - p.y;
         const double weight = 1 / std::max(dx * dx + dy * dy, 1.0);
         weights += weight;
-        heights += weight * at->height / kUnit;
+        heights += weight * at->height / kPartsOfStep;
         ++count;
       }
     }
@@ -146,7 +146,8 @@ class Pinning {
       heights += (heights.empty() ? "line " : ", line ") + std::to_string(one->line + 1) + " at " +
                  height_text(*one->height);
     }
-    if (sample != nullptr) heights += ", the terrain at " + height_text(sample->height / kUnit);
+    if (sample != nullptr)
+      heights += ", the terrain at " + height_text(sample->height / kPartsOfStep);
     const LinePlace place{double{0} + first->place.x, double{0} + first->place.y, 0};
     throw Error(parameter("breaklines") + ": at " + place_text(place, lattice_) +
                 " no z step is within the bound of all heights: " + heights + "; use a larger " +

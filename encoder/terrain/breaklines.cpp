@@ -68,7 +68,7 @@ class LineGroundTest {
     if (voids.empty()) return false;
     const double left = std::max(place.x - ground_.x_spacing, -1.0),
                  right = std::min(place.x + ground_.x_spacing, double{kLatticeMax} + 1);
-    for (double x = std::floor(left) + 1; x < right; ++x) {
+    for (int x = static_cast<int>(std::floor(left)) + 1; x < right; ++x) {
       const double low = std::max(std::floor(place.y - ground_.y_spacing) + 1, 0.0);
       const Point from{static_cast<uint16_t>(x), static_cast<uint16_t>(low)};
       const auto at = std::lower_bound(voids.begin(), voids.end(), from);
@@ -106,9 +106,10 @@ class LineCutter {
     narrow(a.x, b.x, from, to);
     narrow(a.y, b.y, from, to);
     if (from >= to) return;
-    const double samples = std::floor(distance(a, b) * (to - from) / kSampling);
-    for (double i = 1; i <= samples; ++i) {
-      look_at(place_between(a, b, from + (to - from) * i / (samples + 1)), false);
+    const auto samples = static_cast<int64_t>(distance(a, b) * (to - from) / kSampling);
+    for (int64_t i = 1; i <= samples; ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(samples + 1);
+      look_at(place_between(a, b, from + (to - from) * share), false);
     }
   }
 

@@ -25,6 +25,15 @@ uint32_t key_of(int x, int y) {
   return (static_cast<uint32_t>(x) << 16) | static_cast<uint32_t>(y);
 }
 
+// Calls visit(length) for lengths along a line from 0 to all of it.
+template <class Visit>
+void visit_strides(const LatticeLine& line, const Visit& visit) {
+  const auto strides = static_cast<int64_t>(line.length() / kStride) + 1;
+  for (int64_t i = 0; i <= strides; ++i) {
+    visit(line.length() * static_cast<double>(i) / static_cast<double>(strides));
+  }
+}
+
 // The vertices of a mesh at positions near lines, and the edges between them.
 class NearbyEdges {
  public:
@@ -74,11 +83,9 @@ class NearbyEdges {
   }
 
   void mark(const LatticeLine& line) {
-    const double strides = std::ceil(line.length() / kStride);
-    for (double i = 0; i <= strides; ++i) {
-      visit_positions(line.at(line.length() * i / strides),
-                      [&](int x, int y) { vertices_[key_of(x, y)] = kNone; });
-    }
+    visit_strides(line, [&](double along) {
+      visit_positions(line.at(along), [&](int x, int y) { vertices_[key_of(x, y)] = kNone; });
+    });
   }
 
   bool is_near(uint32_t v) const {
@@ -144,16 +151,14 @@ class LineSearch {
   // segments of the line that it may be near to.
   void find_feet() {
     std::map<uint32_t, std::set<std::size_t>> near;
-    const double strides = std::ceil(line_.length() / kStride);
-    for (double i = 0; i <= strides; ++i) {
-      const double along = line_.length() * i / strides;
+    visit_strides(line_, [&](double along) {
       const LatticeLine::Range places = line_.between(along - kWindow, along + kWindow);
       const std::size_t first = places.first == 0 ? 0 : places.first - 1,
                         last = std::min(places.last, line_.places().size() - 1);
       edges_.visit_near(line_.at(along), [&](uint32_t v) {
         for (std::size_t segment = first; segment < last; ++segment) near[v].insert(segment);
       });
-    }
+    });
     for (const auto& [v, segments] : near) add_feet(v, segments);
   }
 
