@@ -79,7 +79,7 @@ std::string merged(uint64_t points, DuplicateRule rule) {
 std::string at_true_places(const std::optional<Verification>& measured,
                            const std::optional<Decimal>& bound, const EncodeRequest& request) {
   if (!measured) return "";
-  const bool is_bound = request.bound_at == BoundAt::kTruePlaces && bound;
+  const bool is_bound = request.lattice.bound_at == BoundAt::kTruePlaces && bound;
   return "... where the points truly lie: at most " + to_string(measured->max_error) + ", rms " +
          to_string(measured->rms_error) + ", mean " + to_string(measured->mean_error) +
          (is_bound ? " (the bound holds there, too)" : "") + "; below the points: at most " +
@@ -92,13 +92,14 @@ std::string own_bounds(const std::optional<StatedBounds>& bounds) {
 }
 
 // How far the surface is on either side of the source.
-std::string beyond(const Verification& measured, const std::optional<Distances>& everywhere) {
+std::string beyond(const Verification& measured, const std::optional<Distances>& everywhere,
+                   bool is_bound) {
   std::string text = "below the source: at most " + to_string(measured.max_below) +
                      ", above: at most " + to_string(measured.max_above) + '\n';
   if (!everywhere) return text;
   return text + "everywhere, from the bilinear surface of the posts: at most " +
          to_string(everywhere->below) + " below, at most " + to_string(everywhere->above) +
-         " above\n";
+         " above" + (is_bound ? " (the bound holds there, too)\n" : "\n");
 }
 
 std::string source_of_posts(uint64_t posts, uint64_t voids, const Mended& mended,
@@ -174,7 +175,9 @@ std::string stream_report(const Source& source, const EncodedStream& encoded,
   }
   text << '\n'
        << own_bounds(encoded.bounds) << at_true_places(encoded.true_places, encoded.bound, request)
-       << beyond(measured, encoded.everywhere) << along_lines(encoded);
+       << beyond(measured, encoded.everywhere,
+                 request.lattice.bound_at == BoundAt::kEverywhere && encoded.bound)
+       << along_lines(encoded);
   return text.str();
 }
 
@@ -189,7 +192,7 @@ std::string pack_report(const PackReport& pack) {
        << pack.bytes << " bytes\nerror: at most " << to_string(pack.measured.max_error) << ", rms "
        << to_string(pack.measured.rms_error) << ", mean " << to_string(pack.measured.mean_error);
   if (pack.bound && !pack.bounds) text << " (asked for: at most " << to_string(*pack.bound) << ")";
-  text << '\n' << own_bounds(pack.bounds) << beyond(pack.measured, pack.everywhere);
+  text << '\n' << own_bounds(pack.bounds) << beyond(pack.measured, pack.everywhere, false);
   return text.str();
 }
 

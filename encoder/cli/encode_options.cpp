@@ -153,10 +153,6 @@ void add_notes(CLI::App& command, EncodeRequest& request) {
 
 void add_point_options(CLI::App& command, EncodeRequest& request) {
   begin_group(command, "Points");
-  add_choice<BoundAt>(command, "--bound-at", request.bound_at,
-                      {{"points", BoundAt::kTruePlaces}, {"lattice", BoundAt::kLattice}},
-                      "Choose where --max-error holds: at the points, or at the lattice positions "
-                      "that stand for them");
   add_choice<DuplicateRule>(command, "--duplicates", request.lattice.duplicates,
                             {{"middle", DuplicateRule::kMiddle},
                              {"lowest", DuplicateRule::kLowest},
@@ -184,6 +180,14 @@ void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>&
                 "elsewhere --max-error holds, and --max-bytes and --max-vertices scale all bounds");
   command.add_flag("--never-below", request->lattice.never_below,
                    "Keep the surface at or above every height, by at most the bound");
+  add_choice<BoundAt>(
+      command, "--bound-at", request->lattice.bound_at,
+      {{"points", BoundAt::kTruePlaces},
+       {"lattice", BoundAt::kLattice},
+       {"everywhere", BoundAt::kEverywhere}},
+      "Choose where --max-error holds. points: at posts, and at points where they "
+      "lie. lattice: at the lattice positions that stand for points. everywhere: on "
+      "the whole surface of a raster, compared with the bilinear one of its posts");
   begin_group(command, "Lattice");
   add_decimal(command, "--z-step METRES", request->lattice.z_step,
               "Set the step of heights, in the terrain's unit")

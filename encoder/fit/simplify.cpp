@@ -182,6 +182,18 @@ Tin finished(Surface& surface, Decimation& decimation, const Tin& before,
   return std::move(found.tin);
 }
 
+// The vertices, and those samples that are fixed and were none.
+Tin with_fixed(const Survey& survey, const PostIndex& posts, Tin tin) {
+  std::vector<Point> places = terrain::places_of(tin);
+  std::sort(places.begin(), places.end());
+  for (const Point place : survey.fixed) {
+    if (std::binary_search(places.begin(), places.end(), place)) continue;
+    const Sample& sample = survey.samples[posts.number(*posts.find(place))];
+    tin.vertices.push_back({place.x, place.y, ErrorModel{true}.vertex_height(sample)});
+  }
+  return tin;
+}
+
 // Parts of the time: the first attempt to remove all, and until means come last.
 constexpr double kRemovalPart = 0.1, kSearchPart = 0.8;
 
@@ -236,7 +248,7 @@ Tin search_on(const Survey& survey, const Tin& tin, uint32_t rounds,
 
 Tin mended(const Survey& survey, const Tin& tin) {
   const PostIndex posts(places_of(survey.samples));
-  Refinement refinement(survey, ErrorModel{true}, posts, tin);
+  Refinement refinement(survey, ErrorModel{true}, posts, with_fixed(survey, posts, tin));
   refinement.refine(std::numeric_limits<std::size_t>::max());
   return refinement.tin();
 }

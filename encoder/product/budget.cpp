@@ -143,21 +143,20 @@ class Budget {
   }
   bool fits(double size) const { return size <= limit_; }
 
-  bool bounds_points() const { return asked_.bound_at == BoundAt::kTruePlaces; }
-
-  // Where points truly lie, too, if the bound is to hold there. Of posts with bounds of their own:
-  // the scale that these would need.
+  // Where points truly lie, or everywhere, if the bound is to hold there. Of posts with bounds of
+  // their own: the scale that these would need.
   Decimal error_of(const EncodedStream& encoded) const {
     if (const std::optional<BoundSpan>& span = encoded.verification.bounds) {
       return rounded(real(span->ratio) * real(*encoded.bound)).value_or(*encoded.bound);
     }
-    const Decimal error = encoded.verification.max_error;
-    if (!encoded.true_places || !bounds_points()) return error;
-    const Decimal there = encoded.true_places->max_error;
-    return there <= error ? error : there;
+    return error_where_bound(encoded, asked_.lattice.bound_at);
   }
   bool is_too_low(const EncodedStream& encoded) const {
-    return asked_.lattice.never_below && bounds_points() && encoded.true_places &&
+    if (!asked_.lattice.never_below) return false;
+    if (asked_.lattice.bound_at == BoundAt::kEverywhere) {
+      return encoded.everywhere && encoded.everywhere->below.mantissa != 0;
+    }
+    return asked_.lattice.bound_at == BoundAt::kTruePlaces && encoded.true_places &&
            encoded.true_places->max_below.mantissa != 0;
   }
 

@@ -22,6 +22,7 @@
 #include "encoder/terrain/clouds.hpp"
 #include "encoder/verify/breaklines.hpp"
 #include "encoder/verify/everywhere.hpp"
+#include "encoder/verify/everywhere_bound.hpp"
 #include "encoder/verify/verify.hpp"
 #include "encoder/verify/water_gauge.hpp"
 
@@ -91,9 +92,31 @@ Accuracy accuracy_of(const Verification& measured, const std::optional<Decimal>&
   return {bound, measured.max_error, measured.rms_error, measured.mean_error};
 }
 
-// What becomes of a bound that points miss where they truly lie: the limits of the next attempt
-// become narrower, or the bound wider.
+// What becomes of a bound that is missed where points truly lie, or between posts: the limits of
+// the next attempt become narrower, or the bound wider.
 enum class Miss { kNarrows, kWidens };
+
+// What attempts learn from those before.
+struct Lessons {
+  LatticeOptions lattice;
+  std::optional<EverywhereBound> everywhere;
+};
+
+bool is_kept_everywhere(const EncodeOptions& options) {
+  return options.lattice.bound_at == BoundAt::kEverywhere && options.lattice.max_error;
+}
+
+// Measures a raster between its posts, and narrows limits if the bound is to be kept there.
+void measure_between_posts(const Raster& raster, const microtin_mesh* mesh, bool is_kept,
+                           Metadata& metadata, Lessons& lessons, Attempt& attempt) {
+  const Placement& placement = metadata.placement;
+  metadata.everywhere = margins_of(measure_gap(mesh, placement, raster));
+  attempt.encoded.everywhere = stated_everywhere(metadata.everywhere, placement.z);
+  if (!is_kept) return;
+  if (!lessons.everywhere) lessons.everywhere.emplace(raster, lessons.lattice, placement);
+  attempt.missed = lessons.everywhere->see(mesh);
+  lessons.lattice.tightenings = lessons.everywhere->tightenings();
+}
 
 // Measures points where they truly lie; adds narrower limits to the lattice's options if they are
 // to be kept there.
@@ -119,11 +142,11 @@ void measure_true_places(const PointCloud& cloud, const microtin_mesh* mesh, boo
 // The errors that a header notes. A bound that holds where points truly lie holds at both.
 void note_accuracy(EncodedStream& encoded, const EncodeOptions& options, Miss miss,
                    Metadata& metadata) {
-  const bool is_bound = options.bound_at == BoundAt::kTruePlaces;
+  const bool is_bound = options.lattice.bound_at == BoundAt::kTruePlaces;
   const std::optional<Verification>& there = encoded.true_places;
-  if (there && is_bound && miss == Miss::kWidens && encoded.bound &&
-      *encoded.bound <= there->max_error) {
-    encoded.bound = there->max_error;
+  if (miss == Miss::kWidens && encoded.bound) {
+    const Decimal error = error_where_bound(encoded, options.lattice.bound_at);
+    if (*encoded.bound <= error) encoded.bound = error;
   }
   const std::optional<Decimal> all = bound_of_all(encoded.bound, encoded.verification.bounds);
   metadata.accuracy = accuracy_of(encoded.verification, all);
@@ -134,10 +157,11 @@ void note_accuracy(EncodedStream& encoded, const EncodeOptions& options, Miss mi
 }
 
 // The lattice's options become those of the next attempt.
-Attempt assess(const Source& source, const EncodeOptions& options, LatticeOptions& lattice,
+Attempt assess(const Source& source, const EncodeOptions& options, Lessons& lessons,
                Approximation&& found, Miss miss) {
   const BreaklineCost cost = keep_breaklines(found.laid, found.tin);
   check_vertices(found.tin, options);
+  LatticeOptions& lattice = lessons.lattice;
   const std::optional<Decimal>& bound = lattice.max_error;
   Metadata metadata = metadata_for(source, options, found.laid);
   auto [stream, decoded] = encode_and_decode(found.tin, metadata, options.effort);
@@ -171,15 +195,14 @@ Attempt assess(const Source& source, const EncodeOptions& options, LatticeOption
         Breaklines{expect_breaklines(decoded.mesh(), kept, lattice, metadata.placement), cost};
   }
   if (cloud != nullptr) {
-    const bool is_kept = options.bound_at == BoundAt::kTruePlaces && miss == Miss::kNarrows;
+    const bool is_kept = options.lattice.bound_at == BoundAt::kTruePlaces && miss == Miss::kNarrows;
     measure_true_places(std::get<PointCloud>(kept), decoded.mesh(), is_kept, lattice, result);
   }
-  note_accuracy(encoded, options, miss, metadata);
   if (const auto* const raster = std::get_if<Raster>(&source)) {
-    const Placement& placement = metadata.placement;
-    metadata.everywhere = margins_of(measure_gap(decoded.mesh(), placement, *raster));
-    encoded.everywhere = stated_everywhere(metadata.everywhere, placement.z);
+    const bool is_kept = is_kept_everywhere(options) && miss == Miss::kNarrows;
+    measure_between_posts(*raster, decoded.mesh(), is_kept, metadata, lessons, result);
   }
+  note_accuracy(encoded, options, miss, metadata);
   if (options.digest) metadata.digest = microtin_mesh_digest(decoded.mesh());
   if (options.phases) metadata.phases = measure_phases(stream, kept);
   encoded.stream = with_metadata(stream, metadata);
@@ -187,11 +210,11 @@ Attempt assess(const Source& source, const EncodeOptions& options, LatticeOption
 }
 
 // The surface is fitted within `room`, the bound or less.
-Attempt attempt(const Source& source, const EncodeOptions& options, LatticeOptions& lattice,
+Attempt attempt(const Source& source, const EncodeOptions& options, Lessons& lessons,
                 const std::optional<Decimal>& room, const Progress& progress) {
-  LatticeOptions fitted = lattice;
+  LatticeOptions fitted = lessons.lattice;
   fitted.max_error = room;
-  return assess(source, options, lattice,
+  return assess(source, options, lessons,
                 approximate(source, fitted, simplify_options(options, progress)), Miss::kNarrows);
 }
 
@@ -231,9 +254,55 @@ void refuse_scaling(const Source& source, const EncodeOptions& options) {
   if (options.lattice.max_error->mantissa == 0) {
     throw Error(parameter("max_error") + " 0 cannot be scaled for " + limit + "; use a larger one");
   }
-  if (std::holds_alternative<PointCloud>(source) && options.bound_at == BoundAt::kTruePlaces) {
-    throw Error(parameter("error_map") + " and " + limit + " go together for points only with " +
-                parameter("bound_at") + " lattice; use that, or " + parameter("max_error"));
+  const bool is_cloud = std::holds_alternative<PointCloud>(source);
+  const BoundAt where = options.lattice.bound_at;
+  if (is_cloud ? where != BoundAt::kLattice : where == BoundAt::kEverywhere) {
+    throw Error(parameter("error_map") + " and " + limit + " go together only with " +
+                parameter("bound_at") + (is_cloud ? " lattice" : " points") + "; use that, or " +
+                parameter("max_error"));
+  }
+}
+
+// Two triangles with the heights of a bent cell's posts are on one side of it: a bound on both
+// sides is larger than a quarter of what it bends, one on one side may have to be twice as large.
+[[noreturn]] void refuse_everywhere(const Attempt& last, const Raster& raster,
+                                    const EncodeOptions& options) {
+  const Bend bend = most_bent(raster);
+  const LatticeOptions& lattice = options.lattice;
+  const Wide quarter = Wide{bend.by.mantissa} * 25, parts = lattice.never_below ? 2 : 1;
+  throw Error(parameter("max_error") + ' ' + to_string(*lattice.max_error) +
+              " cannot be kept everywhere: it is missed around " + std::to_string(last.missed) +
+              " posts. The cell from x " + CoordinateText(raster.x)(bend.column) + ", y " +
+              CoordinateText(raster.y)(bend.row) + " bends by " + to_string(bend.by) +
+              " between its posts; use more than " +
+              to_string(make_decimal(quarter * parts, bend.by.decimals + 2)) + ", or " +
+              parameter("bound_at") + " points");
+}
+
+// Between posts a surface is farther off. On mountains and fractals, one fitted within this part of
+// the bound takes the fewest bytes once that is mended.
+Decimal part_for_posts(Decimal bound) {
+  constexpr int kHundredths = 85, kDecimals = 2;
+  if (bound.decimals + kDecimals > kMaxDecimals) return bound;
+  return make_decimal(Wide{bound.mantissa} * kHundredths, bound.decimals + kDecimals);
+}
+
+// Fits a raster, and adds vertices wherever the bound is missed between its posts, until none are
+// missing or the cells bend too much. A search among the narrower limits would undo that.
+EncodedStream encode_everywhere(const Source& source, const EncodeOptions& options,
+                                const Progress& progress) {
+  constexpr int kMostAttempts = 12;
+  Lessons lessons{options.lattice, std::nullopt};
+  LatticeOptions fitted = options.lattice;
+  fitted.max_error = part_for_posts(*fitted.max_error);
+  Approximation found = approximate(source, fitted, simplify_options(options, progress));
+  for (int attempts = 1;; ++attempts) {
+    const Tin tin = found.tin;
+    Attempt made = assess(source, options, lessons, std::move(found), Miss::kNarrows);
+    if (made.missed == 0) return std::move(made.encoded);
+    if (attempts == kMostAttempts) refuse_everywhere(made, std::get<Raster>(source), options);
+    found.laid = lay_out(source, lessons.lattice);
+    found.tin = mended(found.laid.survey, tin);
   }
 }
 
@@ -241,9 +310,9 @@ void refuse_scaling(const Source& source, const EncodeOptions& options) {
 Attempt attempt_some(const Source& source, const EncodeOptions& options,
                      const std::optional<Decimal>& room, const Progress& progress) {
   constexpr int kMostAttempts = 6;
-  LatticeOptions lattice = options.lattice;
+  Lessons lessons{options.lattice, std::nullopt};
   for (int tries = 1;; ++tries) {
-    Attempt made = attempt(source, options, lattice, room, progress);
+    Attempt made = attempt(source, options, lessons, room, progress);
     if (made.missed == 0 || tries == kMostAttempts) return made;
   }
 }
@@ -251,7 +320,8 @@ Attempt attempt_some(const Source& source, const EncodeOptions& options,
 // An attempt everywhere within less than the bound. Nothing if the terrain does not go within that.
 std::optional<Attempt> attempt_narrowly(const Source& source, const EncodeOptions& options,
                                         const Attempt& last, const Progress& progress) {
-  const Decimal room = narrower(*options.lattice.max_error, last.encoded.true_places->max_error);
+  const Decimal error = error_where_bound(last.encoded, options.lattice.bound_at);
+  const Decimal room = narrower(*options.lattice.max_error, error);
   try {
     return attempt_some(source, options, room, progress);
   } catch (const Error&) {
@@ -261,8 +331,22 @@ std::optional<Attempt> attempt_narrowly(const Source& source, const EncodeOption
 
 }  // namespace
 
+Decimal error_where_bound(const EncodedStream& encoded, BoundAt bound_at) {
+  Decimal error = encoded.verification.max_error;
+  const auto add = [&](Decimal other) {
+    if (error <= other) error = other;
+  };
+  if (encoded.true_places && bound_at == BoundAt::kTruePlaces) add(encoded.true_places->max_error);
+  if (encoded.everywhere && bound_at == BoundAt::kEverywhere) {
+    add(encoded.everywhere->below);
+    add(encoded.everywhere->above);
+  }
+  return error;
+}
+
 EncodedStream encode_measured(const Source& source, const EncodeOptions& options,
                               const Progress& progress) {
+  if (is_kept_everywhere(options)) return encode_everywhere(source, options, progress);
   Attempt made = attempt_some(source, options, options.lattice.max_error, progress);
   if (made.missed == 0) return std::move(made.encoded);
   std::optional<Attempt> narrow = attempt_narrowly(source, options, made, progress);
@@ -271,8 +355,8 @@ EncodedStream encode_measured(const Source& source, const EncodeOptions& options
 }
 
 EncodedStream measured(const Source& source, const EncodeOptions& options, Approximation&& found) {
-  LatticeOptions lattice = options.lattice;
-  return assess(source, options, lattice, std::move(found), Miss::kWidens).encoded;
+  Lessons lessons{options.lattice, std::nullopt};
+  return assess(source, options, lessons, std::move(found), Miss::kWidens).encoded;
 }
 
 EncodedStream encode_stream(const Source& source, const EncodeOptions& asked,
@@ -283,6 +367,11 @@ EncodedStream encode_stream(const Source& source, const EncodeOptions& asked,
   }
   if (!options.resume.empty()) {
     throw Error(parameter("resume") + " is for packs, and this is a stream; leave it out");
+  }
+  if (options.lattice.bound_at == BoundAt::kEverywhere &&
+      std::holds_alternative<PointCloud>(source)) {
+    throw Error(parameter("bound_at") +
+                " everywhere is for rasters, and these are points; leave it out");
   }
   // Fails before the work, if it does.
   std::visit([&](const auto& one) { metadata_of(options, one); }, source);

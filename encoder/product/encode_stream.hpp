@@ -37,19 +37,23 @@ struct EncodedStream {
 // Chooses, encodes, decodes with the shipped decoder, and compares that with every post or point:
 // what is returned keeps the bound, covers all heights, leaves all voids open and keeps water at
 // its level, and all breaklines are chains of edges. Points keep max_error where they truly lie,
-// too, unless options leave that: after each attempt limits become narrower where one does not.
-// With a limit of bytes or vertices, that is the smallest bound found whose stream keeps the limit,
-// in about the time of four encodings, or of more where the lattice moves points so far that bounds
-// must be tried at their true places. Throws Error if what is asked for cannot be had.
+// too, unless options leave that, and rasters keep it between their posts if options say so: after
+// each attempt limits become narrower where it is missed. With a limit of bytes or vertices, that
+// is the smallest bound found whose stream keeps the limit, in about the time of four encodings, or
+// of more where the lattice moves points so far that bounds must be tried at their true places.
+// Throws Error if what is asked for cannot be had.
 EncodedStream encode_stream(const Source& source, const EncodeOptions& asked,
                             const Progress& progress);
+
+// The largest error where the bound is to hold.
+Decimal error_where_bound(const EncodedStream& encoded, BoundAt bound_at);
 
 // Encodes without looking for a bound: only insertion of the worst sample keeps max_vertices.
 EncodedStream encode_measured(const Source& source, const EncodeOptions& options,
                               const Progress& progress);
 
-// What becomes of an approximation with these options, whose bound holds on the lattice. Where
-// points truly lie it becomes as wide as it must, unless options leave that.
+// What becomes of an approximation with these options, whose bound holds on the lattice. It
+// becomes as wide as it must where points truly lie, or everywhere, as options say.
 EncodedStream measured(const Source& source, const EncodeOptions& options, Approximation&& found);
 
 }  // namespace microtin::product

@@ -139,6 +139,18 @@ microtin::Coding coding_of(encoder::Coding coding) {
   return microtin::Coding::kBalanced;
 }
 
+terrain::BoundAt places_of(BoundAt bound_at) {
+  switch (bound_at) {
+    case BoundAt::kLattice:
+      return terrain::BoundAt::kLattice;
+    case BoundAt::kEverywhere:
+      return terrain::BoundAt::kEverywhere;
+    case BoundAt::kPoints:
+      break;
+  }
+  return terrain::BoundAt::kTruePlaces;
+}
+
 terrain::DuplicateRule rule_of(Duplicates duplicates) {
   switch (duplicates) {
     case Duplicates::kLowest:
@@ -229,8 +241,7 @@ product::EncodeOptions options_of(const Options& options) {
   all.max_bytes = options.max_bytes;
   all.tile_vertices = options.tile_vertices;
   all.tile_size = options.tile_size;
-  all.bound_at = options.bound_at == encoder::BoundAt::kLattice ? product::BoundAt::kLattice
-                                                                : product::BoundAt::kTruePlaces;
+  all.lattice.bound_at = places_of(options.bound_at);
   all.search = search_of(options.effort);
   all.effort = {options.max_degree, coding_of(options.coding)};
   all.surface = surface_of(options.surface);

@@ -135,7 +135,7 @@ Options options_of(const microtin_options& given) {
   options.effort = choice("effort", given.effort, options.effort, SearchEffort::kBest);
   options.max_degree = given.max_degree;
   options.coding = choice("coding", given.coding, options.coding, Coding::kDense);
-  options.bound_at = choice("bound_at", given.bound_at, options.bound_at, BoundAt::kLattice);
+  options.bound_at = choice("bound_at", given.bound_at, options.bound_at, BoundAt::kEverywhere);
   options.duplicates =
       choice("duplicates", given.duplicates, options.duplicates, Duplicates::kMean);
   options.units = text_of(given.units);

@@ -46,7 +46,7 @@ bool set_choice(Options& options, const std::string& text) {
 
 constexpr const char* kEfforts[] = {"fast", "normal", "best"};
 constexpr const char* kCodings[] = {"quick", "balanced", "dense"};
-constexpr const char* kPlaces[] = {"points", "lattice"};
+constexpr const char* kPlaces[] = {"points", "lattice", "everywhere"};
 constexpr const char* kSurfaces[] = {"unknown", "ground", "top", "bed", "geoid", "obstacles"};
 constexpr const char* kSides[] = {"", "both", "never_below", "never_above"};
 constexpr const char* kRules[] = {"middle", "lowest", "highest", "mean"};
@@ -68,7 +68,7 @@ constexpr NamedOption kOptions[] = {
     {"never_below", set_flag<&Options::never_below>, kFlag},
     {"z_step", set_text<&Options::z_step>, kText},
     {"xy_step", set_text<&Options::xy_step>, kText},
-    {"bound_at", set_choice<&Options::bound_at, kPlaces, 2>, "points or lattice"},
+    {"bound_at", set_choice<&Options::bound_at, kPlaces, 3>, "points, lattice or everywhere"},
     {"duplicates", set_choice<&Options::duplicates, kRules, 4>, "middle, lowest, highest or mean"},
     {"effort", set_choice<&Options::effort, kEfforts, 3>, "fast, normal or best"},
     {"coding", set_choice<&Options::coding, kCodings, 3>, "quick, balanced or dense"},

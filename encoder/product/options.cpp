@@ -59,6 +59,11 @@ void refuse_options_of_streams(const EncodeOptions& options) {
     throw Error(parameter("breaklines") +
                 " is for streams; make a stream (.mtin), or leave it out");
   }
+  if (options.lattice.bound_at == BoundAt::kEverywhere) {
+    throw Error(parameter("bound_at") +
+                " everywhere is for streams; the safe heights of a pack include what lies between "
+                "posts, so leave it out or make a stream (.mtin)");
+  }
   if (options.max_vertices != 0 || options.max_bytes != 0) {
     throw Error(parameter("max_vertices") + " and " + parameter("max_bytes") +
                 " are for streams; for a pack use " + parameter("max_error") + ", or no bound");

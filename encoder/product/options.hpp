@@ -15,9 +15,6 @@
 
 namespace microtin::product {
 
-// Where the bound holds for points that a lattice moves.
-enum class BoundAt { kTruePlaces, kLattice };
-
 // The autopilot whose adapter (decoder/adapters) reads a pack.
 enum class Adapter { kNone, kInav, kArduPilot };
 
@@ -36,7 +33,6 @@ struct EncodeOptions {
   Adapter adapter = Adapter::kNone;
   std::string resume;         // of packs of rasters: keeps finished tiles; empty: none does
   bool few_vertices = false;  // with a bound: rather than few bytes
-  BoundAt bound_at = BoundAt::kTruePlaces;
   Search search = Search::kNormal;
   Effort effort;
   std::optional<Reference> reference;  // in place of the terrain's own, settled

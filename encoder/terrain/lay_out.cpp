@@ -251,6 +251,14 @@ Sample sample_within(const Tightening& limits) {
   return {limits.place, step, step, step};
 }
 
+void fix_vertices(const std::vector<Tightening>& tightenings, std::vector<Point>& fixed) {
+  for (const Tightening& tight : tightenings) {
+    if (tight.is_vertex) fixed.push_back(tight.place);
+  }
+  std::sort(fixed.begin(), fixed.end());
+  fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
+}
+
 // Both are in the order of places.
 void tighten(std::vector<Sample>& samples, const std::vector<Tightening>& tightenings) {
   const size_t own = samples.size();
@@ -331,6 +339,7 @@ Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions&
   laid.z_step = make_decimal(lattice.z.step, lattice.z_decimals);
   add_breaklines(options, lattice, laid);
   tighten(laid.survey.samples, options.tightenings);
+  fix_vertices(options.tightenings, laid.survey.fixed);
   laid.xy_step = make_decimal(lattice.x.step, lattice.xy_decimals);
   laid.xy_displacement = placing.xy_displacement();
   laid.z_displacement = placing.z_displacement();

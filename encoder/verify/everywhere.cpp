@@ -91,14 +91,67 @@ class PostHeights {
   double scale_, shift_, slack_ = 0;
 };
 
-// Doubles find what may be larger than all before; only that is computed exactly.
+// Keeps the largest distances.
+class Largest {
+ public:
+  bool may_exceed(double below, double above, double slack) const {
+    return below + slack > static_cast<double>(gap_.below) ||
+           above + slack > static_cast<double>(gap_.above);
+  }
+  void add_post(int64_t /*column*/, int64_t /*row*/, Wide below, Wide above) { keep(below, above); }
+  void add_cell(int64_t /*column*/, int64_t /*row*/, Wide below, Wide above) { keep(below, above); }
+  Gap gap() const { return gap_; }
+
+ private:
+  void keep(Wide below, Wide above) {
+    gap_.below = std::max(gap_.below, below);
+    gap_.above = std::max(gap_.above, above);
+  }
+
+  Gap gap_{0, 0};
+};
+
+// Keeps the largest distance at each post that the surface is beyond, or next to such a place.
+class AtPosts {
+ public:
+  AtPosts(const Raster& raster, Side side)
+      : width_(raster.width), is_below_(side == Side::kBelow), misses_(raster.heights.size()) {}
+
+  bool may_exceed(double below, double above, double slack) const {
+    return (is_below_ ? below : above) + slack > 0;
+  }
+  void add_post(int64_t column, int64_t row, Wide below, Wide above) {
+    const Wide by = is_below_ ? below : above;
+    if (by > 0) keep(column, row, by);
+  }
+  void add_cell(int64_t column, int64_t row, Wide below, Wide above) {
+    const Wide by = is_below_ ? below : above;
+    if (by <= 0) return;
+    for (int corner = 0; corner < 4; ++corner) keep(column + corner % 2, row + corner / 2, by);
+  }
+  std::vector<int64_t> take() { return std::move(misses_); }
+
+ private:
+  void keep(int64_t column, int64_t row, Wide by) {
+    int64_t& miss = misses_[static_cast<size_t>(row) * width_ + static_cast<size_t>(column)];
+    miss = std::max(miss, static_cast<int64_t>(std::min<Wide>(by, kHighest)));
+  }
+
+  uint32_t width_;
+  bool is_below_;
+  std::vector<int64_t> misses_;
+};
+
+// Doubles find what the record may want; only that is computed exactly.
+template <class Record>
 class Comparison {
  public:
-  Comparison(const Placement& lattice, const Raster& raster)
+  Comparison(const Placement& lattice, const Raster& raster, Record& record)
       : x_(lattice.x, raster.x, raster.width),
         y_(lattice.y, raster.y, raster.height),
         posts_(raster, lattice.z),
-        most_parts_(most_parts(x_, y_)) {}
+        most_parts_(most_parts(x_, y_)),
+        record_(record) {}
 
   // Whether numerators along an edge, over parts^2 * cell, stay below 2^83 * kHighest * 8.
   bool is_exact(const End& a, const End& b) const { return parts(a, b) <= most_parts_; }
@@ -111,11 +164,14 @@ class Comparison {
   // Takes the post at a vertex into account, if there is one.
   void add_vertex(const End& v) {
     if (!v.is_post) return;
-    const int64_t number = posts_.number_at(v.x / x_.step, v.y / y_.step);
+    const int64_t column = v.x / x_.step, row = v.y / y_.step;
+    const int64_t number = posts_.number_at(column, row);
     if (number == kVoidHeight) return;
     const double below = posts_.near(number) - static_cast<double>(v.z);
-    if (!may_exceed(below, -below, posts_.slack())) return;
-    if (const auto post = exact(number)) keep(post->high - v.z, v.z - post->low);
+    if (!record_.may_exceed(below, -below, posts_.slack())) return;
+    if (const auto post = exact(number)) {
+      record_.add_post(column, row, post->high - v.z, v.z - post->low);
+    }
   }
 
   // Takes the posts in a counter-clockwise triangle into account, but for those at its corners.
@@ -142,7 +198,6 @@ class Comparison {
     for (size_t i = 1; i < stops.size(); ++i) add_piece(a, b, stops[i - 1], stops[i]);
   }
 
-  Gap gap() const { return {below_, above_}; }
   bool has_far_post() const { return has_far_post_; }
 
  private:
@@ -161,15 +216,6 @@ class Comparison {
 
   static int64_t turn(const End& a, const End& b, int64_t x, int64_t y) {
     return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
-  }
-
-  void keep(Wide below, Wide above) {
-    below_ = std::max(below_, below);
-    above_ = std::max(above_, above);
-  }
-  bool may_exceed(double below, double above, double slack) const {
-    return below + slack > static_cast<double>(below_) ||
-           above + slack > static_cast<double>(above_);
   }
 
   std::optional<PostHeights::Rounded> exact(int64_t number) {
@@ -204,12 +250,12 @@ class Comparison {
                          (static_cast<double>(of_c) * static_cast<double>(c.z - a.z) +
                           static_cast<double>(of_b) * static_cast<double>(b.z - a.z)) /
                              static_cast<double>(area);
-    if (!may_exceed(below, -below, posts_.slack())) return;
+    if (!record_.may_exceed(below, -below, posts_.slack())) return;
     const auto post = exact(number);
     if (!post) return;
     const Wide above_a = Wide{of_c} * (c.z - a.z) + Wide{of_b} * (b.z - a.z);
-    keep(ceil_divide((post->high - a.z) * area - above_a, area),
-         ceil_divide(above_a - (post->low - a.z) * area, area));
+    record_.add_post(column, row, ceil_divide((post->high - a.z) * area - above_a, area),
+                     ceil_divide(above_a - (post->low - a.z) * area, area));
   }
 
   // Places along an edge are counted in this many parts of it, so that all lines meet it at whole
@@ -276,7 +322,8 @@ class Comparison {
       low[corner] = post->low;
       high[corner] = post->high;
     }
-    keep(most(a, b, from, to, column, row, high, 1), most(a, b, from, to, column, row, low, -1));
+    record_.add_cell(column, row, most(a, b, from, to, column, row, high, 1),
+                     most(a, b, from, to, column, row, low, -1));
     return true;
   }
 
@@ -305,9 +352,9 @@ class Comparison {
     const double bulge = columns * rows * twist * length * length / 4;
     const double range =
         std::abs(base) + std::abs(rise) + std::abs(east) + std::abs(north) + std::abs(twist);
-    return may_exceed(std::max(f, g) + std::max(-bulge, 0.0),
-                      std::max(-f, -g) + std::max(bulge, 0.0),
-                      posts_.slack() + std::ldexp(range, -22));
+    return record_.may_exceed(std::max(f, g) + std::max(-bulge, 0.0),
+                              std::max(-f, -g) + std::max(bulge, 0.0),
+                              posts_.slack() + std::ldexp(range, -22));
   }
 
   // The most that the bilinear surface is above the edge (sign 1), or below it (-1), on a piece of
@@ -340,7 +387,7 @@ class Comparison {
   PostHeights posts_;
   int64_t most_parts_;  // of an edge
   std::vector<int64_t> stops_;
-  Wide below_ = 0, above_ = 0;
+  Record& record_;
   bool has_far_post_ = false;  // beyond kHighest: no distance is known
 };
 
@@ -351,12 +398,12 @@ Decimal decimal_of(Wide units, const Axis& z) {
   return make_decimal_up(split.whole + (split.rest != 0 ? 1 : 0), kMaxDecimals);
 }
 
-}  // namespace
-
-std::optional<Gap> measure_gap(const microtin_mesh* mesh, const Placement& lattice,
-                               const Raster& raster) {
-  if (is_sparse(raster)) return std::nullopt;
-  Comparison comparison(lattice, raster);
+// Whether all was compared: exact arithmetic holds the numbers.
+template <class Record>
+bool compare_all(const microtin_mesh* mesh, const Placement& lattice, const Raster& raster,
+                 Record& record) {
+  if (is_sparse(raster)) return false;
+  Comparison<Record> comparison(lattice, raster, record);
   std::vector<bool> is_compared(microtin_mesh_vertex_count(mesh));
   const uint32_t triangles = microtin_mesh_triangle_count(mesh);
   for (uint32_t t = 0; t < triangles; ++t) {
@@ -367,7 +414,7 @@ std::optional<Gap> measure_gap(const microtin_mesh* mesh, const Placement& latti
                                      comparison.end_of(vertex_of(mesh, v[2]))};
     for (uint32_t i = 0; i < 3; ++i) {
       const End &from = ends[i], &to = ends[(i + 1) % 3];
-      if (!comparison.is_exact(from, to)) return std::nullopt;
+      if (!comparison.is_exact(from, to)) return false;
       if (!is_compared[v[i]]) comparison.add_vertex(from);
       is_compared[v[i]] = true;
       uint32_t unused[3];
@@ -377,8 +424,23 @@ std::optional<Gap> measure_gap(const microtin_mesh* mesh, const Placement& latti
     }
     comparison.add_posts(ends[0], ends[1], ends[2]);
   }
-  if (comparison.has_far_post()) return std::nullopt;
-  return comparison.gap();
+  return !comparison.has_far_post();
+}
+
+}  // namespace
+
+std::optional<Gap> measure_gap(const microtin_mesh* mesh, const Placement& lattice,
+                               const Raster& raster) {
+  Largest largest;
+  if (!compare_all(mesh, lattice, raster, largest)) return std::nullopt;
+  return largest.gap();
+}
+
+std::optional<std::vector<int64_t>> beyond(const microtin_mesh* mesh, const Placement& lattice,
+                                           const Raster& raster, Side side) {
+  AtPosts at_posts(raster, side);
+  if (!compare_all(mesh, lattice, raster, at_posts)) return std::nullopt;
+  return at_posts.take();
 }
 
 std::optional<Distances> measure_everywhere(const microtin_mesh* mesh, const Placement& lattice,

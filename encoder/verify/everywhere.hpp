@@ -3,7 +3,9 @@
 #ifndef MICROTIN_ENCODER_VERIFY_EVERYWHERE_HPP
 #define MICROTIN_ENCODER_VERIFY_EVERYWHERE_HPP
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "encoder/layers.hpp"
 #include "encoder/terrain/source.hpp"
@@ -25,6 +27,13 @@ struct Gap {
 // edges x cells that an edge crosses).
 std::optional<Gap> measure_gap(const microtin_mesh* mesh, const Placement& lattice,
                                const Raster& raster);
+
+enum class Side : uint8_t { kBelow, kAbove };
+
+// How far the surface is beyond the bilinear one, on that side of it, in Gap's units, rounded up:
+// the most at each post and in the cells around it; 0: nowhere. Otherwise as measure_gap.
+std::optional<std::vector<int64_t>> beyond(const microtin_mesh* mesh, const Placement& lattice,
+                                           const Raster& raster, Side side);
 
 // Measures these distances in the unit of heights.
 std::optional<Distances> measure_everywhere(const microtin_mesh* mesh, const Placement& lattice,

@@ -171,6 +171,7 @@ std::vector<Row> rows() {
       {"coding", kAll, coding("--coding dense", Coding::kDense, 3), two},
       {"bound_at", 0, bound_at("--bound-at points", BoundAt::kPoints, 1), coarse},
       {"bound_at", kClouds, bound_at("--bound-at lattice", BoundAt::kLattice, 2), coarse},
+      {"bound_at", kStream, bound_at("--bound-at everywhere", BoundAt::kEverywhere, 3), bound("9")},
       {"duplicates", 0, duplicates("--duplicates middle", Duplicates::kMiddle, 1), two},
       {"duplicates", kClouds, duplicates("--duplicates lowest", Duplicates::kLowest, 2), two},
       {"duplicates", kClouds, duplicates("--duplicates highest", Duplicates::kHighest, 3), two},

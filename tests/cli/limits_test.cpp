@@ -130,7 +130,7 @@ const std::vector<Limit> kLimits = {
      {1, 2, (1u << 24) + 1}},
     {"effort: 0 .. 3", nullptr, &microtin_options::effort, {0, 3}, {4}},
     {"coding: 0 .. 3", nullptr, &microtin_options::coding, {0, 3}, {4}},
-    {"bound_at: 0 .. 2", nullptr, &microtin_options::bound_at, {0, 2}, {3}},
+    {"bound_at: 0 .. 3", nullptr, &microtin_options::bound_at, {0, 3}, {4}},
     {"duplicates: 0 .. 4", nullptr, &microtin_options::duplicates, {0, 4}, {5}},
 };
 

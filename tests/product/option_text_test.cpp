@@ -44,6 +44,7 @@ std::vector<Row> rows() {
       row("xy_step", "", &O::xy_step, std::string()),
       row("bound_at", "points", &O::bound_at, BoundAt::kPoints),
       row("bound_at", "lattice", &O::bound_at, BoundAt::kLattice),
+      row("bound_at", "everywhere", &O::bound_at, BoundAt::kEverywhere),
       row("duplicates", "middle", &O::duplicates, Duplicates::kMiddle),
       row("duplicates", "lowest", &O::duplicates, Duplicates::kLowest),
       row("duplicates", "highest", &O::duplicates, Duplicates::kHighest),

@@ -136,10 +136,11 @@ enum class SearchEffort {
 /* Trades time of decoding for bytes. */
 enum class Coding { kQuick, kBalanced, kDense };
 
-/* Where a bound holds if the lattice of a stream moves points. */
+/* Where a bound holds. */
 enum class BoundAt {
-  kPoints, /* at the points' own positions, and on the lattice */
-  kLattice /* at the positions on the lattice only */
+  kPoints,    /* at the posts, or at the points' own positions and on the lattice */
+  kLattice,   /* of points: at the positions on the lattice only */
+  kEverywhere /* of a raster: between posts, too, compared with their bilinear surface */
 };
 
 /* Which height counts where several points share a position of the lattice. */

@@ -43,7 +43,7 @@ ErrorMap = Union[str, "os.PathLike[str]", ArrayLike]
 
 _EFFORTS = {"fast": 1, "normal": 2, "best": 3}
 _CODINGS = {"quick": 1, "balanced": 2, "dense": 3}
-_BOUND_AT = {"points": 1, "lattice": 2}
+_BOUND_AT = {"points": 1, "lattice": 2, "everywhere": 3}
 _DUPLICATES = {"middle": 1, "lowest": 2, "highest": 3, "mean": 4}
 _SURFACES = {"unknown": 0, "ground": 1, "top": 2, "bed": 3, "geoid": 4, "obstacles": 5}
 _SIGHTS = numpy.array(["clear", "blocked", "unknown"])
@@ -170,11 +170,13 @@ def encode(
     max_vertices  the best vertices, at most N, instead of max_error
     max_bytes     the smallest bound that N bytes allow, instead of both; takes minutes
 
-    Options: never_below=True, z_step, xy_step, effort="fast" | "normal" | "best", max_degree,
-    coding="quick" | "balanced" | "dense", units="degree:metre" or ":foot", depths=True, vertical_epsg,
-    surface="ground" | "top" | "bed" | "geoid" | "obstacles", source_name, date, lineage, attribution, license (an SPDX
-    expression or a URL), valid="2024-01/..", epoch (of the coordinates, a year), source_accuracy="LE90 4" (or LE95, RMSE),
-    digest=True, phases=True (of streams: noted as measured), and progress, a function of 0 .. 1; what it raises ends the work. Degrees ask for the unit of heights. Heights in other units of length, units=":cm", are converted to metres; depths=True negates heights that grow downwards.
+    Options: never_below=True, bound_at="points" | "everywhere" (between posts, too, of a stream), z_step, xy_step,
+    effort="fast" | "normal" | "best", max_degree, coding="quick" | "balanced" | "dense", units="degree:metre" or ":foot",
+    depths=True, vertical_epsg, surface="ground" | "top" | "bed" | "geoid" | "obstacles", source_name, date, lineage,
+    attribution, license (an SPDX expression or a URL), valid="2024-01/..", epoch (of the coordinates, a year),
+    source_accuracy="LE90 4" (or LE95, RMSE), digest=True, phases=True (of streams: noted as measured), and progress, a
+    function of 0 .. 1; what it raises ends the work. Degrees ask for the unit of heights. Heights in other units of
+    length, units=":cm", are converted to metres; depths=True negates heights that grow downwards.
 
     error_map gives each height a bound of its own: an array of the heights' shape, NaN for none, or the path of a raster of
     bounds or of polygons with a property max_error (.geojson). Elsewhere max_error holds. A limit scales all bounds.

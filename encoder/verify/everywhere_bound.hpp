@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// What a surface must do better so that it keeps a bound everywhere, not at posts alone.
+#ifndef MICROTIN_ENCODER_VERIFY_EVERYWHERE_BOUND_HPP
+#define MICROTIN_ENCODER_VERIFY_EVERYWHERE_BOUND_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "encoder/exact/lattice_map.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/terrain/lattice_choice.hpp"
+#include "encoder/terrain/source.hpp"
+#include "encoder/verify/everywhere.hpp"
+#include "microtin/microtin.h"
+
+namespace microtin::verifying {
+
+// The cell whose posts are farthest from lying in a plane: by heights a, b at the ends of one
+// diagonal and c, d at the others it bends by |a + b - c - d|. Two triangles with these heights are
+// up to a quarter of that from the bilinear surface.
+struct Bend {
+  uint32_t column = 0, row = 0;  // of its south-western post
+  Decimal by;
+};
+Bend most_bent(const Raster& raster);
+
+// Narrows the limits of posts around the places that a surface misses, from attempt to attempt:
+// first by what is missed and a little more; where that was in vain, the posts become vertices,
+// with limits that leave room for what a cell bends between its posts. A cell whose four posts are
+// such vertices consists of two triangles and misses nothing, if a whole step lies within the
+// limits of each.
+class EverywhereBound {
+ public:
+  // The options have a bound. Throws Error if the raster is sparse, if places of the lattice are
+  // not those of the posts, or if numbers are too large.
+  EverywhereBound(const Raster& raster, const LatticeOptions& options, const Placement& lattice);
+
+  // Measures a surface. How many posts are next to a place that it misses: 0 if it keeps the bound
+  // everywhere. Throws Error if that cannot be computed exactly.
+  uint64_t see(const microtin_mesh* mesh);
+
+  // Of all surfaces seen, in the order of places.
+  std::vector<Tightening> tightenings() const;
+
+  // Limits that leave room for what the cells around a post bend; the lowest may be above the
+  // highest.
+  Tightening sure_limits(std::size_t post) const;
+
+ private:
+  int64_t bend_at(const Raster& surface, std::size_t post, Side side) const;
+  void narrow(std::size_t post, int32_t here, int64_t below, int64_t above);
+
+  // The terrain lies between these two surfaces, which are bilinear between posts: of heights less
+  // their bounds, or as they are, and plus their bounds. A post without a bound is void.
+  Raster lowest_, highest_;
+  Placement lattice_;
+  LatticeMap to_steps_;                       // from numbers of heights
+  std::map<std::size_t, Tightening> limits_;  // of posts that were narrowed
+};
+
+}  // namespace microtin::verifying
+
+#endif
