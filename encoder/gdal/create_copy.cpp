@@ -25,7 +25,8 @@ constexpr const char* kCreationOptions[] = {
     "XY_STEP",   "EFFORT",          "CODING",      "MAX_DEGREE",  "TILE_VERTICES",
     "TILE_SIZE", "UNITS",           "DEPTHS",      "SURFACE",     "SOURCE_NAME",
     "DATE",      "LINEAGE",         "ATTRIBUTION", "LICENSE",     "VALID",
-    "EPOCH",     "SOURCE_ACCURACY", "DIGEST",      "PHASES",      "ERROR_MAP"};
+    "EPOCH",     "SOURCE_ACCURACY", "DIGEST",      "PHASES",      "ERROR_MAP",
+    "BOUND_AT"};
 
 std::string lower_case(std::string text) {
   for (char& letter : text)
@@ -164,7 +165,8 @@ encoder::Options options_of(char** given) {
     const bool is_flag = EQUAL(name, "NEVER_BELOW") || EQUAL(name, "DEPTHS") ||
                          EQUAL(name, "DIGEST") || EQUAL(name, "PHASES");
     const std::string text = is_flag ? (CPLTestBool(value) ? "true" : "false") : value;
-    const bool is_choice = EQUAL(name, "EFFORT") || EQUAL(name, "CODING") || EQUAL(name, "SURFACE");
+    const bool is_choice = EQUAL(name, "EFFORT") || EQUAL(name, "CODING") ||
+                           EQUAL(name, "SURFACE") || EQUAL(name, "BOUND_AT");
     encoder::set_option(options, lower_case(name), is_choice ? lower_case(text) : text);
   }
   return options;

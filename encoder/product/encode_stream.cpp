@@ -301,8 +301,9 @@ EncodedStream encode_everywhere(const Source& source, const EncodeOptions& optio
     Attempt made = assess(source, options, lessons, std::move(found), Miss::kNarrows);
     if (made.missed == 0) return std::move(made.encoded);
     if (attempts == kMostAttempts) refuse_everywhere(made, std::get<Raster>(source), options);
-    found.laid = lay_out(source, lessons.lattice);
-    found.tin = mended(found.laid.survey, tin);
+    Laid laid = lay_out(source, lessons.lattice);
+    Tin more = mended(laid.survey, tin);
+    found = {std::move(laid), std::move(more)};
   }
 }
 

@@ -269,8 +269,8 @@ class Comparison {
     const int64_t all = parts(a, b);
     stops_ = {0, all};
     const auto add_lines = [&](int64_t from, int64_t to, int64_t step) {
+      if (from == to) return;
       const int64_t low = std::min(from, to), high = std::max(from, to);
-      if (low == high) return;
       for (auto line = static_cast<int64_t>(ceil_divide(low, step)); line * step <= high; ++line) {
         stops_.push_back((line * step - from) * (all / (to - from)));
       }

@@ -29,7 +29,7 @@ VOID = (ROW < 20) & (COLUMN > 300)
 NONE = -32768
 ROUNDING = 1e-9  # of differences of binary numbers
 BOUND = 0.5
-OF_STREAMS = ("MAX_VERTICES", "MAX_BYTES", "XY_STEP", "DIGEST", "PHASES")
+OF_STREAMS = ("MAX_VERTICES", "MAX_BYTES", "XY_STEP", "DIGEST", "PHASES", "BOUND_AT")
 OF_PACKS = ("TILE_VERTICES", "TILE_SIZE")
 
 
@@ -150,6 +150,7 @@ class Driver(unittest.TestCase):
             "DIGEST": ["YES"],
             "PHASES": ["YES"],
             "ERROR_MAP": self.error_maps(),
+            "BOUND_AT": ["EVERYWHERE"],
         }
         text = gdal.GetDriverByName("MTIN").GetMetadataItem("DMD_CREATIONOPTIONLIST")
         listed = xml.etree.ElementTree.fromstring(text).iter("Option")
@@ -168,7 +169,7 @@ class Driver(unittest.TestCase):
             without = encoded(suffix, base)
             for name, values in rows.items():
                 if name in (OF_PACKS if suffix == ".mtin" else OF_STREAMS):
-                    with self.assertRaisesRegex(RuntimeError, "is an option of|packs"):
+                    with self.assertRaisesRegex(RuntimeError, "is an option of|is for streams|packs"):
                         encoded(suffix, dict(base, **{name: values[0]}))
                     continue
                 others = {} if name in ("MAX_VERTICES", "MAX_BYTES") else base

@@ -25,7 +25,7 @@ using PostHeight = std::function<double(int column, int row)>;
 
 double rough(int column, int row) {
   return std::round(200 + 60 * std::sin(column * 0.31) * std::cos(row * 0.23) +
-                     (column * 37 + row * 101 + column * row * 13) % 9);
+                    (column * 37 + row * 101 + column * row * 13) % 9);
 }
 
 bool is_void(int column, int row) {
@@ -60,8 +60,9 @@ Range compare(const std::string& file, const PostHeight& height, const PostHeigh
         continue;
       }
       for (int part = 0; part < (kParts + 1) * (kParts + 1); ++part) {
-        const double u = static_cast<double>(part % (kParts + 1)) / kParts,
-                     v = static_cast<double>(part / (kParts + 1)) / kParts;
+        const int column_part = part % (kParts + 1), row_part = part / (kParts + 1);
+        const double u = static_cast<double>(column_part) / kParts,
+                     v = static_cast<double>(row_part) / kParts;
         const auto bilinear = [&](const PostHeight& at) {
           return (at(column, row) * (1 - u) + at(column + 1, row) * u) * (1 - v) +
                  (at(column, row + 1) * (1 - u) + at(column + 1, row + 1) * u) * v;
