@@ -47,6 +47,7 @@ using namespace terrain;
 
 // Comparing a decoded terrain with its source: at posts and points, everywhere between, and water.
 namespace verifying {
+using namespace base;
 using namespace exact;
 using namespace terrain;
 }  // namespace verifying

@@ -203,6 +203,7 @@ void add_verify(CLI::App& app, Action& action) {
                    "Fail also if the surface is below the source anywhere");
   add_error_map(command, request->preparation, "the file states the bound elsewhere");
   add_breaklines(command, request->breaklines, "Fail also if edges do not follow");
+  add_obstacles(command, request->preparation);
   add_json(command, request->json);
   command.callback([request, &action] { action = [request] { run_verify(*request); }; });
 }

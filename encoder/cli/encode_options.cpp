@@ -188,6 +188,7 @@ void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>&
       "Choose where --max-error holds. points: at posts, and at points where they "
       "lie. lattice: at the lattice positions that stand for points. everywhere: on "
       "the whole surface of a raster, compared with the bilinear one of its posts");
+  add_obstacles(command, request->preparation);
   begin_group(command, "Lattice");
   add_decimal(command, "--z-step METRES", request->lattice.z_step,
               "Set the step of heights, in the terrain's unit")
@@ -212,6 +213,12 @@ void check_encode_options(EncodeRequest& request) {
   }
   if (request.lattice.never_below && !has_bound && !has_map && request.max_bytes == 0) {
     throw CLI::ValidationError("--never-below", "needs --max-error or --max-bytes");
+  }
+  if (!request.preparation.obstacles.empty()) {
+    if (!has_bound) throw CLI::ValidationError("--obstacles", "needs --max-error");
+    request.lattice.never_below = true;
+    request.lattice.bound_at = BoundAt::kEverywhere;
+    if (request.surface == SurfaceKind::kUnknown) request.surface = SurfaceKind::kObstacles;
   }
   request.preparation.max_error = request.lattice.max_error;
   request.lattice.water_level = request.preparation.water_level;

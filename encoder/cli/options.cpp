@@ -234,6 +234,13 @@ void add_breaklines(CLI::App& command, std::string& path, const std::string& des
                "line and an empty line between lines");
 }
 
+void add_obstacles(CLI::App& command, Preparation& preparation) {
+  add_text(command, "--obstacles FILE", preparation.obstacles,
+           "Raise the terrain to the obstacles of this GeoJSON file: points, lines and polygons "
+           "with a top or a height above the ground, and a radius in metres. The surface is "
+           "nowhere below them or the terrain: --never-below and --bound-at everywhere hold");
+}
+
 void add_preparation(CLI::App& command, Preparation& preparation) {
   begin_group(command, "How the terrain is read");
   const auto read = [&preparation](const std::string& text) {

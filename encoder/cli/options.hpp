@@ -115,6 +115,9 @@ void add_error_map(CLI::App& command, Preparation& preparation, const std::strin
 // The option --breaklines.
 void add_breaklines(CLI::App& command, std::string& path, const std::string& description);
 
+// The option --obstacles.
+void add_obstacles(CLI::App& command, Preparation& preparation);
+
 // For encoding, and alike for every comparison with the source.
 void add_preparation(CLI::App& command, Preparation& preparation);
 

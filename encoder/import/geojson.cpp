@@ -180,7 +180,24 @@ class FeatureReader {
     }
   }
 
+  std::optional<Decimal> number_of(const Value& properties, const char* name,
+                                   bool is_negative_allowed) const {
+    const Value* const value = properties.find(name);
+    if (value == nullptr || value->kind == Value::kNull) return std::nullopt;
+    std::optional<Decimal> number;
+    if (value->kind == Value::kNumber) number = parse_decimal(value->text);
+    if (!number || (number->mantissa < 0 && !is_negative_allowed)) {
+      fail(*value,
+           std::string(name) + " is not a number" + (is_negative_allowed ? "" : " from 0 up"));
+    }
+    return number;
+  }
+
   void read_properties(const Value& properties) {
+    if (properties.kind != Value::kObject) return;
+    features_.back().top = number_of(properties, "top", true);
+    features_.back().height = number_of(properties, "height", false);
+    features_.back().radius = number_of(properties, "radius", false);
     const Value* const bound = properties.find("max_error");
     if (bound == nullptr) return;
     Feature& feature = features_.back();
@@ -202,6 +219,11 @@ class FeatureReader {
       for (const Value& one : array_of(places, value)) {
         feature.polygons.push_back(rings_of(&one, value));
       }
+    } else if (type == "Point") {
+      feature.points.push_back(point_of(value, value.find("coordinates")));
+    } else if (type == "MultiPoint") {
+      for (const Value& one : array_of(places, value))
+        feature.points.push_back(point_of(one, &one));
     } else if (type == "LineString") {
       feature.lines.push_back(line_of(places, value));
     } else if (type == "MultiLineString") {
@@ -210,7 +232,7 @@ class FeatureReader {
     } else if (type == "GeometryCollection") {
       for (const Value& one : array_of(value.find("geometries"), value)) read_geometry(one);
     } else {
-      fail(value, "is not a polygon or a line of GeoJSON");
+      fail(value, "is not a polygon, a line or a point of GeoJSON");
     }
   }
 
@@ -223,13 +245,18 @@ class FeatureReader {
     return rings;
   }
 
+  RealPoint point_of(const Value& parent, const Value* place) const {
+    const std::vector<Value>& numbers = array_of(place, parent);
+    if (numbers.size() < 2) fail(parent, "a position has fewer than two numbers");
+    RealPoint point{coordinate_of(numbers[0]), coordinate_of(numbers[1])};
+    if (numbers.size() > 2) point.z = coordinate_of(numbers[2]);
+    return point;
+  }
+
   RealLine line_of(const Value* value, const Value& parent) const {
     RealLine line;
     for (const Value& place : array_of(value, parent)) {
-      const std::vector<Value>& numbers = array_of(&place, parent);
-      if (numbers.size() < 2) fail(place, "a position has fewer than two numbers");
-      line.push_back({coordinate_of(numbers[0]), coordinate_of(numbers[1])});
-      if (numbers.size() > 2) line.back().z = coordinate_of(numbers[2]);
+      line.push_back(point_of(parent, &place));
     }
     if (line.size() < 2) fail(parent, "a line has fewer than two positions");
     return line;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Polygons and lines out of GeoJSON files.
+// Polygons, lines and points out of GeoJSON files.
 #ifndef MICROTIN_ENCODER_IMPORT_GEOJSON_HPP
 #define MICROTIN_ENCODER_IMPORT_GEOJSON_HPP
 
@@ -17,9 +17,13 @@ namespace microtin::importing {
 struct Feature {
   std::vector<RealRings> polygons;
   std::vector<RealLine> lines;
+  std::vector<RealPoint> points;
   // The property max_error: a number from 0 up, or null, which leaves places without a bound.
   bool has_max_error = false;
   std::optional<Decimal> max_error;
+  // Properties of obstacles: a height above the zero of heights, or from 0 up above the ground; and
+  // metres from 0 up around the geometry.
+  std::optional<Decimal> top, height, radius;
 };
 
 // Reads the features of a GeoJSON text: collections, features and geometries. Coordinates are

@@ -16,6 +16,7 @@
 #include "encoder/import/bound_map.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/mosaic.hpp"
+#include "encoder/import/obstacles.hpp"
 #include "encoder/import/reference.hpp"
 #include "encoder/terrain/clouds.hpp"
 #include "encoder/terrain/voids.hpp"
@@ -224,8 +225,8 @@ std::vector<std::string> files_of(const std::string& path, const Preparation& pr
   std::vector<std::string> names = preparation.water_mask.empty()
                                        ? std::vector<std::string>()
                                        : std::vector<std::string>{preparation.water_mask};
-  for (const std::string& file :
-       {preparation.cells, preparation.area, preparation.route, preparation.error_map}) {
+  for (const std::string& file : {preparation.cells, preparation.area, preparation.route,
+                                  preparation.error_map, preparation.obstacles}) {
     if (!file.empty()) names.push_back(file);
   }
   if (!path.empty()) {
@@ -301,15 +302,30 @@ Area area_of(const Preparation& preparation, const Reference& reference) {
 
 }  // namespace
 
+namespace {
+
+void raise_to_obstacles(const Preparation& preparation, Source& source) {
+  auto* const raster = std::get_if<Raster>(&source);
+  if (raster == nullptr) {
+    throw Error(preparation.obstacles + ": " + parameter("obstacles") +
+                " is for rasters, and these are points");
+  }
+  Obstacles(preparation.obstacles).raise(*raster, preparation.max_error);
+}
+
+}  // namespace
+
 Source prepared_terrain(const std::string& path, const Preparation& preparation) {
   Source source = without_bounds(path, preparation);
   if (has_area(preparation)) {
     const Area area = area_of(preparation, terrain::reference_of(source));
     std::visit([&](auto& one) { area.cut(one); }, source);
   }
-  if (preparation.error_map.empty()) return source;
-  const BoundMap map(preparation.error_map, preparation.max_error);
-  std::visit([&](auto& one) { map.bound(one); }, source);
+  if (!preparation.error_map.empty()) {
+    const BoundMap map(preparation.error_map, preparation.max_error);
+    std::visit([&](auto& one) { map.bound(one); }, source);
+  }
+  if (!preparation.obstacles.empty()) raise_to_obstacles(preparation, source);
   return source;
 }
 
@@ -328,6 +344,10 @@ void cut_to_area(OpenSource& source, const Preparation& preparation) {
 }  // namespace
 
 OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
+  if (!preparation.obstacles.empty()) {
+    throw Error(preparation.obstacles + ": " + parameter("obstacles") +
+                " is for streams, and this is a pack");
+  }
   OpenSource source = prepared(path, parts_of(path, preparation), preparation);
   if (has_area(preparation)) cut_to_area(source, preparation);
   if (preparation.error_map.empty()) return source;
@@ -341,6 +361,14 @@ OpenSource prepared_source(const std::string& path, const Preparation& preparati
   return source;
 }
 
+namespace {
+
+std::string counted_obstacles(uint64_t count) {
+  return std::to_string(count) + (count == 1 ? " obstacle" : " obstacles");
+}
+
+}  // namespace
+
 std::string describe_preparation(const Mended& mended, const std::string& selection) {
   std::string text;
   if (mended.filled != 0) {
@@ -348,6 +376,13 @@ std::string describe_preparation(const Mended& mended, const std::string& select
   }
   if (mended.flooded != 0) {
     text += ", " + std::to_string(mended.flooded) + " of the posts were void and are water";
+  }
+  if (mended.obstacles + mended.obstacles_elsewhere != 0) {
+    text += ", raised to " + counted_obstacles(mended.obstacles);
+  }
+  if (mended.obstacles_elsewhere != 0) {
+    text += "; " + counted_obstacles(mended.obstacles_elsewhere) +
+            (mended.obstacles_elsewhere == 1 ? " lies elsewhere" : " lie elsewhere");
   }
   if (!selection.empty()) text += ", " + selection;
   return text;

@@ -44,6 +44,7 @@ struct Preparation {
   std::string route;                       // the file of lines far from which all is void
   std::optional<Decimal> route_width;      // metres; together with `route`
   std::string error_map;                   // the file of posts' own bounds; empty: none
+  std::string obstacles;                   // the file of what raises the terrain; empty: none
   std::optional<Decimal> max_error;        // the bound where that says nothing
   // Settled with each file's; nothing: units and systems are left alone, where no heights are used.
   std::optional<Reference> asked = Reference{};

@@ -59,7 +59,11 @@ void thin(PointCloud& cloud, const Metadata& metadata) {
 std::variant<Source, OpenSource> source_for(const Document& document, const std::string& path,
                                             Preparation preparation) {
   const Metadata metadata = document.metadata();
-  if (metadata.bounds) preparation.max_error = metadata.bounds->unscaled;
+  if (metadata.bounds) {
+    preparation.max_error = metadata.bounds->unscaled;
+  } else if (metadata.accuracy) {
+    preparation.max_error = metadata.accuracy->bound;
+  }
   if (!preparation.classes && has_classes(path)) preparation.classes = metadata.classes;
   if (document.pack() != nullptr) {
     OpenSource source = prepared_source(path, preparation);
@@ -218,9 +222,9 @@ Original::Judgement Original::judge(const Progress& progress) const {
   const OwnBounds& own = raster() != nullptr ? raster()->bounds : cloud()->bounds;
   if (promised.bounds.has_value() != own.unscaled.has_value()) {
     throw Error(document_.path() +
-                (promised.bounds ? ": has bounds of an error map; name it with "
-                                 : ": has no bounds of an error map; leave out ") +
-                parameter("error_map"));
+                (promised.bounds ? ": has bounds of an error map or of obstacles; name them with "
+                                 : ": has no bounds of an error map or of obstacles; leave out ") +
+                parameter("error_map") + " or " + parameter("obstacles"));
   }
   const int decimals = raster() != nullptr ? raster()->decimals : cloud()->z_decimals;
   WaterGauge gauge(decimals, promised.water_level);

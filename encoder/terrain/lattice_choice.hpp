@@ -24,9 +24,9 @@ struct Tightening {
   bool is_vertex = false;  // the place must be one
 };
 
-// Where a bound holds: at posts, and at points where they truly lie; at the positions on the lattice
-// alone, if that moves points; or between the posts of a raster, too, compared with their bilinear
-// surface.
+// Where a bound holds: at posts, and at points where they truly lie; at the positions on the
+// lattice alone, if that moves points; or between the posts of a raster, too, compared with their
+// bilinear surface.
 enum class BoundAt : uint8_t { kTruePlaces, kLattice, kEverywhere };
 
 struct LatticeOptions {

@@ -46,12 +46,15 @@ struct Reference {
 
 // Posts that were void when they were read and have a height nevertheless.
 struct Mended {
-  uint64_t filled = 0;   // interpolated
-  uint64_t flooded = 0;  // at the water level
+  uint64_t filled = 0;                              // interpolated
+  uint64_t flooded = 0;                             // at the water level
+  uint64_t obstacles = 0, obstacles_elsewhere = 0;  // that raise posts, or touch none with a height
 
   void add(const Mended& others) {
     filled += others.filled;
     flooded += others.flooded;
+    obstacles += others.obstacles;
+    obstacles_elsewhere += others.obstacles_elsewhere;
   }
 };
 

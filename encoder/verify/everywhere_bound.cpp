@@ -53,8 +53,9 @@ bool is_one_post(const Axis& lattice, const Axis& source) {
   return map.scale == map.step && map.shift == 0;
 }
 
-// Of the cell to the north-east of a post: the sum of the heights at the ends of the diagonal from
-// there, less those at the others. 0 if one of its posts is void. Numbers are below 2^61.
+// The bend of the cell to the north-east of a post: the sum of the heights at the ends of the
+// diagonal from there, less those at the others. 0 if one of its posts is void. Numbers are below
+// 2^61.
 int64_t bend_of_cell(const Raster& surface, std::size_t post) {
   const int64_t* const south = &surface.heights[post];
   const int64_t a = south[0], b = south[1], c = south[surface.width], d = south[surface.width + 1];

@@ -41,7 +41,7 @@ class EverywhereBound {
   // everywhere. Throws Error if that cannot be computed exactly.
   uint64_t see(const microtin_mesh* mesh);
 
-  // Of all surfaces seen, in the order of places.
+  // Those that all surfaces seen ask for, in the order of places.
   std::vector<Tightening> tightenings() const;
 
   // Limits that leave room for what the cells around a post bend; the lowest may be above the

@@ -118,6 +118,7 @@ const std::vector<OptionRow> kOptionRows = {
     {"encode", "--max-degree", "t.asc --max-error 2 -o o.mtin", "6"},
     {"encode", "--coding", "t.asc --max-error 2 -o o.mtin", "quick"},
     {"encode", "--area", "t.asc --max-error 2 -o o.mtin", "bounds.geojson"},
+    {"encode", "--obstacles", "t.asc --max-error 99 -o o.mtin", "tower.geojson"},
     {"encode", "--route", "t.asc --max-error 2 --route-width 9 -o o.mtin", "route.geojson"},
     {"encode", "--route-width", "t.asc --max-error 2 --route route.geojson -o o.mtin", "9"},
     {"encode", "--classes", "s.las -o o.mtin", "all"},
@@ -180,6 +181,7 @@ const std::vector<OptionRow> kOptionRows = {
     {"diff", "--json", "s.mtp s.mtp", ""},
     {"verify", "--json", "t.mtin t.asc", ""},
     {"verify", "--area", "m.mtin t.asc", "bounds.geojson"},
+    {"verify", "--obstacles", "tower.mtin t.asc", "tower.geojson"},
     {"verify", "--route", "m.mtin t.asc --route-width 9", "route.geojson"},
     {"verify", "--route-width", "m.mtin t.asc --route route.geojson", "9"},
     {"verify", "--classes", "s.mtin s.las", "2"},
@@ -246,6 +248,8 @@ void write_inputs(const Session& session) {
   session.write("mask.asc", mask());
   session.write("bounds.geojson", bounds());
   session.write("route.geojson", kRoute);
+  session.write("tower.geojson", R"({"type": "Feature", "properties": {"top": 190}, "geometry":
+{"type": "Point", "coordinates": [537, 741]}})");
   session.write("s.las", las_scan());
   session.write("part.asc",
                 "ncols 2\nnrows 2\nxllcenter 510\nyllcenter 710\ncellsize 4\n1 2 3 4\n");
@@ -266,6 +270,7 @@ void write_inputs(const Session& session) {
   for (const char* words :
        {"t.asc -o t.mtin", "t.asc --max-error 2 -o m.mtin", "s.las -o s.mtin --classes all",
         "t.asc --tile-size 9 -o s.mtp", "t.asc --max-error 1 --tile-size 20 -o m.mtp",
+        "t.asc --max-error 99 --obstacles tower.geojson -o tower.mtin",
         "t.asc --max-error 1 -o fine.mtin", "sea.xyz -o sea.mtin",
         "t.asc apart.asc --water-level 50 --absent sea -o seas.mtin",
         "t.asc --max-error 2 --fill-voids 99 -o filled.mtin",
@@ -395,9 +400,10 @@ const std::vector<std::string> kOfShards = {"--max-error 1.8",
 const Names kWithoutEffect = {"", "--bound-at", "--duplicates"};
 
 // With which no shard of posts is made, or which say which shard.
-const Names kNotOfShards = {"--digest",  "--phases",     "--max-vertices", "--max-bytes",
-                            "--xy-step", "--device-ram", "--output",       "--shard",
-                            "--classes", "--gridded",    "--for",          "--breaklines"};
+const Names kNotOfShards = {"--digest",   "--phases",     "--max-vertices", "--max-bytes",
+                            "--xy-step",  "--device-ram", "--output",       "--shard",
+                            "--classes",  "--gridded",    "--for",          "--breaklines",
+                            "--obstacles"};
 
 const std::vector<std::string> kCommon = {"--max-error 1.9", "--z-step 0.5", "--tile-vertices 60",
                                           "--tile-size 10"};
