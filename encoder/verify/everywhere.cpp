@@ -94,7 +94,8 @@ class PostHeights {
 // Keeps the largest distances.
 class Largest {
  public:
-  bool may_exceed(double below, double above, double slack) const {
+  bool may_exceed(int64_t /*column*/, int64_t /*row*/, double below, double above,
+                  double slack) const {
     return below + slack > static_cast<double>(gap_.below) ||
            above + slack > static_cast<double>(gap_.above);
   }
@@ -111,35 +112,49 @@ class Largest {
   Gap gap_{0, 0};
 };
 
-// Keeps the largest distance at each post that the surface is beyond, or next to such a place.
-class AtPosts {
+// Keeps by how much distances are larger than allowed, at the posts where they are or next to
+// which.
+class Misses {
  public:
-  AtPosts(const Raster& raster, Side side)
-      : width_(raster.width), is_below_(side == Side::kBelow), misses_(raster.heights.size()) {}
+  Misses(const Raster& raster, const Allowed& allowed)
+      : width_(raster.width), allowed_(allowed), misses_(raster.heights.size()) {}
 
-  bool may_exceed(double below, double above, double slack) const {
-    return (is_below_ ? below : above) + slack > 0;
+  // Of a post or of the cell to the north-east of it: a post may exceed what it must not.
+  bool may_exceed(int64_t column, int64_t row, double below, double above, double slack) const {
+    const auto allowed = static_cast<double>(allowed_.distances[post_at(column, row)]);
+    return below + slack > (allowed_.never_below ? 0 : allowed) || above + slack > allowed;
   }
   void add_post(int64_t column, int64_t row, Wide below, Wide above) {
-    const Wide by = is_below_ ? below : above;
-    if (by > 0) keep(column, row, by);
+    const std::size_t post = post_at(column, row);
+    keep(post, missed(allowed_.distances[post], below, above));
   }
   void add_cell(int64_t column, int64_t row, Wide below, Wide above) {
-    const Wide by = is_below_ ? below : above;
-    if (by <= 0) return;
-    for (int corner = 0; corner < 4; ++corner) keep(column + corner % 2, row + corner / 2, by);
+    const std::size_t post = post_at(column, row);
+    const Miss miss = missed(allowed_in_cell(allowed_, post, width_), below, above);
+    for (const std::size_t corner : {post, post + 1, post + width_, post + width_ + 1}) {
+      keep(corner, miss);
+    }
   }
-  std::vector<int64_t> take() { return std::move(misses_); }
+  std::vector<Miss> take() { return std::move(misses_); }
 
  private:
-  void keep(int64_t column, int64_t row, Wide by) {
-    int64_t& miss = misses_[static_cast<size_t>(row) * width_ + static_cast<size_t>(column)];
-    miss = std::max(miss, static_cast<int64_t>(std::min<Wide>(by, kHighest)));
+  std::size_t post_at(int64_t column, int64_t row) const {
+    return static_cast<std::size_t>(row) * width_ + static_cast<std::size_t>(column);
+  }
+  Miss missed(int64_t allowed, Wide below, Wide above) const {
+    const auto beyond = [](Wide distance, int64_t most) {
+      return static_cast<int64_t>(std::clamp<Wide>(distance - most, 0, kHighest));
+    };
+    return {beyond(below, allowed_.never_below ? 0 : allowed), beyond(above, allowed)};
+  }
+  void keep(std::size_t post, Miss miss) {
+    misses_[post] = {std::max(misses_[post].below, miss.below),
+                     std::max(misses_[post].above, miss.above)};
   }
 
-  uint32_t width_;
-  bool is_below_;
-  std::vector<int64_t> misses_;
+  std::size_t width_;
+  const Allowed& allowed_;
+  std::vector<Miss> misses_;
 };
 
 // Doubles find what the record may want; only that is computed exactly.
@@ -168,7 +183,7 @@ class Comparison {
     const int64_t number = posts_.number_at(column, row);
     if (number == kVoidHeight) return;
     const double below = posts_.near(number) - static_cast<double>(v.z);
-    if (!record_.may_exceed(below, -below, posts_.slack())) return;
+    if (!record_.may_exceed(column, row, below, -below, posts_.slack())) return;
     if (const auto post = exact(number)) {
       record_.add_post(column, row, post->high - v.z, v.z - post->low);
     }
@@ -250,7 +265,7 @@ class Comparison {
                          (static_cast<double>(of_c) * static_cast<double>(c.z - a.z) +
                           static_cast<double>(of_b) * static_cast<double>(b.z - a.z)) /
                              static_cast<double>(area);
-    if (!record_.may_exceed(below, -below, posts_.slack())) return;
+    if (!record_.may_exceed(column, row, below, -below, posts_.slack())) return;
     const auto post = exact(number);
     if (!post) return;
     const Wide above_a = Wide{of_c} * (c.z - a.z) + Wide{of_b} * (b.z - a.z);
@@ -352,7 +367,7 @@ class Comparison {
     const double bulge = columns * rows * twist * length * length / 4;
     const double range =
         std::abs(base) + std::abs(rise) + std::abs(east) + std::abs(north) + std::abs(twist);
-    return record_.may_exceed(std::max(f, g) + std::max(-bulge, 0.0),
+    return record_.may_exceed(column, row, std::max(f, g) + std::max(-bulge, 0.0),
                               std::max(-f, -g) + std::max(bulge, 0.0),
                               posts_.slack() + std::ldexp(range, -22));
   }
@@ -436,11 +451,16 @@ std::optional<Gap> measure_gap(const microtin_mesh* mesh, const Placement& latti
   return largest.gap();
 }
 
-std::optional<std::vector<int64_t>> beyond(const microtin_mesh* mesh, const Placement& lattice,
-                                           const Raster& raster, Side side) {
-  AtPosts at_posts(raster, side);
-  if (!compare_all(mesh, lattice, raster, at_posts)) return std::nullopt;
-  return at_posts.take();
+int64_t allowed_in_cell(const Allowed& allowed, std::size_t post, std::size_t width) {
+  const std::vector<int64_t>& all = allowed.distances;
+  return std::max({all[post], all[post + 1], all[post + width], all[post + width + 1]});
+}
+
+std::optional<std::vector<Miss>> measure_misses(const microtin_mesh* mesh, const Placement& lattice,
+                                                const Raster& raster, const Allowed& allowed) {
+  Misses misses(raster, allowed);
+  if (!compare_all(mesh, lattice, raster, misses)) return std::nullopt;
+  return misses.take();
 }
 
 std::optional<Distances> measure_everywhere(const microtin_mesh* mesh, const Placement& lattice,

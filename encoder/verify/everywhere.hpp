@@ -3,6 +3,7 @@
 #ifndef MICROTIN_ENCODER_VERIFY_EVERYWHERE_HPP
 #define MICROTIN_ENCODER_VERIFY_EVERYWHERE_HPP
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -28,12 +29,23 @@ struct Gap {
 std::optional<Gap> measure_gap(const microtin_mesh* mesh, const Placement& lattice,
                                const Raster& raster);
 
-enum class Side : uint8_t { kBelow, kAbove };
+// How far a surface may be from the bilinear one, in Gap's units: at each post, and in a cell as
+// far as at the post of its four where that is farthest.
+struct Allowed {
+  std::vector<int64_t> distances;  // of posts
+  bool never_below = false;        // but never below it
+};
+int64_t allowed_in_cell(const Allowed& allowed, std::size_t post, std::size_t width);
 
-// How far the surface is beyond the bilinear one, on that side of it, in Gap's units, rounded up:
-// the most at each post and in the cells around it; 0: nowhere. Otherwise as measure_gap.
-std::optional<std::vector<int64_t>> beyond(const microtin_mesh* mesh, const Placement& lattice,
-                                           const Raster& raster, Side side);
+// By how much a surface is farther below or above than allowed, at most, at a post and in the cells
+// around it. In Gap's units, rounded up; 0: it is not.
+struct Miss {
+  int64_t below = 0, above = 0;
+};
+
+// The misses of all posts. Otherwise as measure_gap.
+std::optional<std::vector<Miss>> measure_misses(const microtin_mesh* mesh, const Placement& lattice,
+                                                const Raster& raster, const Allowed& allowed);
 
 // Measures these distances in the unit of heights.
 std::optional<Distances> measure_everywhere(const microtin_mesh* mesh, const Placement& lattice,

@@ -16,9 +16,9 @@
 namespace microtin::verifying {
 namespace {
 
-constexpr int64_t kOneStep = 65536;                // of heights
-constexpr int64_t kMostNumber = int64_t{1} << 60;  // of heights, and of what is added to them
-constexpr int64_t kRounding = 2;                   // units by which distances may be too large
+constexpr int64_t kOneStep = 65536;         // of heights
+constexpr int64_t kFar = int64_t{1} << 41;  // in parts of a step: beyond all lattice heights
+constexpr int64_t kRounding = 2;            // units by which distances may be too large
 
 [[noreturn]] void refuse_everywhere(const std::string& why, const std::string& remedy) {
   throw Error(parameter("bound_at") + " everywhere " + why + "; " + remedy);
@@ -29,23 +29,20 @@ int32_t in_steps(Wide units) {
                                                std::numeric_limits<int32_t>::max()));
 }
 
-// The raster's heights plus its bounds, or less them, or plus nothing.
-Raster moved_by_bounds(const Raster& raster, const std::optional<Decimal>& max_error, int sign) {
-  Raster surface = raster;
-  surface.decimals = std::max(raster.decimals, max_error->decimals);
-  const Wide scale = power_of_ten(surface.decimals - raster.decimals);
-  const BoundOf bound_of(raster.bounds, max_error, surface.decimals);
-  for (std::size_t i = 0; i < surface.heights.size(); ++i) {
-    int64_t& number = surface.heights[i];
-    if (number == kVoidHeight) continue;
-    const Wide bound = bound_of(i), moved = number * scale + sign * bound;
-    if (magnitude(moved) > kMostNumber) {
-      refuse_everywhere("cannot be computed for heights and bounds of so many digits",
-                        "use " + parameter("bound_at") + " points");
-    }
-    number = bound == BoundOf::kNone ? kVoidHeight : static_cast<int64_t>(moved);
+// The bounds of posts, rounded down; those of posts without one are larger than all distances.
+std::vector<int64_t> allowed_at_posts(const Raster& raster, const Decimal& max_error,
+                                      const LatticeMap& to_steps) {
+  constexpr int64_t kUnlimited = int64_t{1} << 41;
+  const BoundOf bound_of(raster.bounds, max_error, kMaxDecimals);
+  const Wide parts = to_steps.step * exact::power_of_ten(kMaxDecimals - raster.decimals);
+  std::vector<int64_t> allowed(raster.heights.size(), kUnlimited);
+  for (std::size_t post = 0; post < allowed.size(); ++post) {
+    const Wide bound = bound_of(post);
+    if (bound == BoundOf::kNone) continue;
+    const auto [whole, rest] = exact::multiply_divide(bound * kOneStep, to_steps.scale, parts);
+    allowed[post] = static_cast<int64_t>(std::min<Wide>(whole, kUnlimited));
   }
-  return surface;
+  return allowed;
 }
 
 bool is_one_post(const Axis& lattice, const Axis& source) {
@@ -81,7 +78,9 @@ Bend most_bent(const Raster& raster) {
 
 EverywhereBound::EverywhereBound(const Raster& raster, const LatticeOptions& options,
                                  const Placement& lattice)
-    : lattice_(lattice) {
+    : raster_(raster),
+      lattice_(lattice),
+      to_steps_(map_between(decimal_axis(raster.decimals), lattice.z)) {
   if (is_sparse(raster)) {
     refuse_everywhere("is for rasters whose posts are at equal distances, and these are not",
                       "use " + parameter("bound_at") + " points");
@@ -89,44 +88,40 @@ EverywhereBound::EverywhereBound(const Raster& raster, const LatticeOptions& opt
   if (!is_one_post(lattice.x, raster.x) || !is_one_post(lattice.y, raster.y)) {
     refuse_everywhere("keeps the positions of posts", "leave out " + parameter("xy_step"));
   }
-  lowest_ = moved_by_bounds(raster, options.max_error, options.never_below ? 0 : -1);
-  highest_ = moved_by_bounds(raster, options.max_error, 1);
-  to_steps_ = map_between(decimal_axis(lowest_.decimals), lattice.z);
+  allowed_ = {allowed_at_posts(raster, *options.max_error, to_steps_), options.never_below};
 }
 
 // Along one diagonal of a bent cell two triangles are above the bilinear surface, along the other
-// below it, by up to a quarter of the bend. The most that a cell bends at whose post this is, an
-// end of the diagonal whose triangles miss the surface on that side.
-int64_t EverywhereBound::bend_at(const Raster& surface, std::size_t post, Side side) const {
-  const std::size_t width = surface.width, column = post % width, row = post / width;
-  int64_t most = 0;
+// below it, by up to a quarter of the bend. An end of the diagonal whose triangles are on a side
+// must be nearer on that side than the cell allows, by as much. The limits may be empty.
+Tightening EverywhereBound::sure_limits(std::size_t post) const {
+  const std::size_t width = raster_.width, column = post % width, row = post / width;
+  int64_t below = allowed_.never_below ? 0 : allowed_.distances[post],
+          above = allowed_.distances[post];
   for (const std::size_t x : {column, column + 1}) {
     for (const std::size_t y : {row, row + 1}) {
-      if (x == 0 || y == 0 || x == width || y == surface.height) continue;
-      const int64_t bend = bend_of_cell(surface, (y - 1) * width + x - 1);
+      if (x == 0 || y == 0 || x == width || y == raster_.height) continue;
+      const std::size_t cell = (y - 1) * width + x - 1;
+      const Wide bend = bend_of_cell(raster_, cell);
+      const auto quarter = static_cast<int64_t>(std::min<Wide>(
+          ceil_divide(magnitude(bend) * to_steps_.scale * kOneStep, to_steps_.step * 4), kFar));
       const bool ascends = (x == column) == (y == row);  // the diagonal that ends here
-      const bool is_above = bend > 0;                    // triangles along the ascending one
-      if ((ascends == is_above) == (side == Side::kAbove)) most = std::max(most, std::abs(bend));
+      const int64_t allowed = allowed_in_cell(allowed_, cell, width);
+      if (ascends == (bend > 0)) {
+        above = std::min(above, allowed - quarter);
+      } else {
+        below = std::min(below, (allowed_.never_below ? 0 : allowed) - quarter);
+      }
     }
   }
-  return most;
+  const Wide height = to_steps_.numerator(raster_.heights[post]) * kOneStep;
+  return {{static_cast<uint16_t>(column), static_cast<uint16_t>(row)},
+          in_steps(ceil_divide(height, to_steps_.step) - below + kRounding),
+          in_steps(floor_divide(height, to_steps_.step) + above - kRounding),
+          true};
 }
 
-Tightening EverywhereBound::sure_limits(std::size_t post) const {
-  const auto units = [&](const Raster& surface, Side side) {
-    const bool is_below = side == Side::kBelow;
-    const Wide bend = bend_at(surface, post, side);
-    const Wide number = Wide{surface.heights[post]} * 4 + (is_below ? bend : -bend);
-    const Wide numerator = (to_steps_.scale * number + to_steps_.shift * 4) * kOneStep;
-    return in_steps(is_below ? ceil_divide(numerator, to_steps_.step * 4) + kRounding
-                             : floor_divide(numerator, to_steps_.step * 4) - kRounding);
-  };
-  const auto width = static_cast<std::size_t>(lowest_.width);
-  const Point place{static_cast<uint16_t>(post % width), static_cast<uint16_t>(post / width)};
-  return {place, units(lowest_, Side::kBelow), units(highest_, Side::kAbove), true};
-}
-
-void EverywhereBound::narrow(std::size_t post, int32_t here, int64_t below, int64_t above) {
+void EverywhereBound::narrow(std::size_t post, int32_t here, Miss miss) {
   const auto [found, is_new] = limits_.try_emplace(post, sure_limits(post));
   Tightening& limits = found->second;
   if (!is_new) {  // in vain: become what is sure
@@ -139,28 +134,27 @@ void EverywhereBound::narrow(std::size_t post, int32_t here, int64_t below, int6
   }
   limits = {limits.place, std::numeric_limits<int32_t>::min(), std::numeric_limits<int32_t>::max()};
   const auto more = [](int64_t by) { return Wide{by} + by / 4 + kRounding; };
-  if (below != 0) limits.lowest = in_steps(here + more(below));
-  if (above != 0) limits.highest = in_steps(here - more(above));
+  if (miss.below != 0) limits.lowest = in_steps(here + more(miss.below));
+  if (miss.above != 0) limits.highest = in_steps(here - more(miss.above));
 }
 
 uint64_t EverywhereBound::see(const microtin_mesh* mesh) {
-  const auto below = beyond(mesh, lattice_, lowest_, Side::kBelow),
-             above = beyond(mesh, lattice_, highest_, Side::kAbove);
-  if (!below || !above) {
-    refuse_everywhere("cannot be computed for heights of so many steps",
+  const auto misses = measure_misses(mesh, lattice_, raster_, allowed_);
+  if (!misses) {
+    refuse_everywhere("cannot be computed for heights of so many digits",
                       "use " + parameter("bound_at") + " points");
   }
   uint64_t missed = 0;
   uint32_t hint = 0;
-  for (std::size_t post = 0; post < below->size(); ++post) {
-    if ((*below)[post] == 0 && (*above)[post] == 0) continue;
+  for (std::size_t post = 0; post < misses->size(); ++post) {
+    const Miss miss = (*misses)[post];
+    if (miss.below == 0 && miss.above == 0) continue;
     ++missed;
-    const std::size_t column = post % lowest_.width, row = post / lowest_.width;
-    int32_t here = 0;
     const auto place = [](std::size_t at) { return static_cast<int32_t>(at * 256); };
-    if (microtin_mesh_height_at(mesh, place(column), place(row), &hint, &here, 0, 0) ==
-        MICROTIN_QUERY_OK) {
-      narrow(post, here, (*below)[post], (*above)[post]);
+    const int32_t x = place(post % raster_.width), y = place(post / raster_.width);
+    int32_t here = 0;
+    if (microtin_mesh_height_at(mesh, x, y, &hint, &here, 0, 0) == MICROTIN_QUERY_OK) {
+      narrow(post, here, miss);
     }
   }
   return missed;

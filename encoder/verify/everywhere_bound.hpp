@@ -33,8 +33,8 @@ Bend most_bent(const Raster& raster);
 // limits of each.
 class EverywhereBound {
  public:
-  // The options have a bound. Throws Error if the raster is sparse, if places of the lattice are
-  // not those of the posts, or if numbers are too large.
+  // The options have a bound. The raster must outlive this. Throws Error if it is sparse, or if
+  // places of the lattice are not those of its posts.
   EverywhereBound(const Raster& raster, const LatticeOptions& options, const Placement& lattice);
 
   // Measures a surface. How many posts are next to a place that it misses: 0 if it keeps the bound
@@ -44,19 +44,14 @@ class EverywhereBound {
   // Those that all surfaces seen ask for, in the order of places.
   std::vector<Tightening> tightenings() const;
 
-  // Limits that leave room for what the cells around a post bend; the lowest may be above the
-  // highest.
-  Tightening sure_limits(std::size_t post) const;
-
  private:
-  int64_t bend_at(const Raster& surface, std::size_t post, Side side) const;
-  void narrow(std::size_t post, int32_t here, int64_t below, int64_t above);
+  Tightening sure_limits(std::size_t post) const;
+  void narrow(std::size_t post, int32_t here, Miss miss);
 
-  // The terrain lies between these two surfaces, which are bilinear between posts: of heights less
-  // their bounds, or as they are, and plus their bounds. A post without a bound is void.
-  Raster lowest_, highest_;
+  const Raster& raster_;
   Placement lattice_;
-  LatticeMap to_steps_;                       // from numbers of heights
+  LatticeMap to_steps_;  // from numbers of heights
+  Allowed allowed_;
   std::map<std::size_t, Tightening> limits_;  // of posts that were narrowed
 };
 
