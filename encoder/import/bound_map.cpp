@@ -78,6 +78,9 @@ BoundMap::BoundMap(const std::string& name, std::unique_ptr<RasterReader> bounds
 void BoundMap::read_polygons(const std::string& path) {
   const std::string text = read_file(path);
   for (Feature& feature : import_geojson(path, text)) {
+    if (feature.has_max_error && feature.polygons.empty()) {
+      throw Error(path + ": a property max_error is for polygons, and this is a line or a point");
+    }
     if (feature.polygons.empty()) continue;
     if (!feature.has_max_error) throw Error(path + ": a polygon has no property max_error");
     polygons_.push_back(std::move(feature));

@@ -119,7 +119,8 @@ class Misses {
   Misses(const Raster& raster, const Allowed& allowed)
       : width_(raster.width), allowed_(allowed), misses_(raster.heights.size()) {}
 
-  // Of a post or of the cell to the north-east of it: a post may exceed what it must not.
+  // Whether a post, or the cell to the north-east of it, may be missed. What is allowed at the post
+  // is at most what is allowed in the cell.
   bool may_exceed(int64_t column, int64_t row, double below, double above, double slack) const {
     const auto allowed = static_cast<double>(allowed_.distances[post_at(column, row)]);
     return below + slack > (allowed_.never_below ? 0 : allowed) || above + slack > allowed;

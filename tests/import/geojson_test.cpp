@@ -64,7 +64,7 @@ TEST_CASE("geojson: what is none is refused with its line") {
                                            kSquare + "x",
                                            "nul",
                                            "\"open",
-                                           R"({"type":"Point","coordinates":[1,2]})",
+                                           R"({"type":"Point","coordinates":[1]})",
                                            R"({"type":"Polygon"})",
                                            R"({"type":"Polygon","coordinates":[[1,2]]})",
                                            std::string(99, '['),

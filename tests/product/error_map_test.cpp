@@ -462,3 +462,13 @@ TEST_CASE("route: what lies near its lines stays, with the area's polygons") {
                  "area.geojson: has no line"));
   CHECK(session.run("encode t.asc --route route.geojson -o b.mtin").code == 2);
 }
+
+TEST_CASE("error map: a bound of a point or a line is refused, not left out") {
+  const Session session;
+  write_terrain(session);
+  session.write("map.geojson", R"({"type": "Feature", "properties": {"max_error": 1}, "geometry":
+  {"type": "Point", "coordinates": [1100, 2100]}})");
+  CHECK(contains(session.failure("encode t.asc --units metre --max-error 5 --error-map "
+                                 "map.geojson -o a.mtin"),
+                 "map.geojson: a property max_error is for polygons"));
+}
