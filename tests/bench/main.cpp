@@ -34,7 +34,8 @@ void print_paper() {
   print_other_claims();
 }
 
-void run(const std::string& command, const Arguments& arguments) {
+// Whether it is a command that takes no arguments.
+bool run_alone(const std::string& command) {
   if (command == "rate") {
     print_missing_peers();
     print_uniform_rate();
@@ -42,10 +43,6 @@ void run(const std::string& command, const Arguments& arguments) {
     print_tile_rate();
   } else if (command == "bounds") {
     print_bounds();
-  } else if (command == "budgets" && arguments.size() <= 1) {
-    print_budgets(arguments.empty() ? "" : arguments[0]);
-  } else if (command == "curves" && arguments.size() == 1) {
-    draw_curves(arguments[0]);
   } else if (command == "paper") {
     print_paper();
   } else if (command == "peers") {
@@ -53,6 +50,22 @@ void run(const std::string& command, const Arguments& arguments) {
     print_peer_costs();
     print_raster_rate();
     print_firmware_grids();
+  } else if (command == "starts") {
+    print_pack_starts();
+  } else if (command == "train") {
+    print_start_probabilities();
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void run(const std::string& command, const Arguments& arguments) {
+  if (run_alone(command)) return;
+  if (command == "budgets" && arguments.size() <= 1) {
+    print_budgets(arguments.empty() ? "" : arguments[0]);
+  } else if (command == "curves" && arguments.size() == 1) {
+    draw_curves(arguments[0]);
   } else if (command == "peer-instructions" && arguments.size() == 1) {
     print_peer_instructions(arguments[0]);
   } else if (command == "grid" && arguments.size() == 2) {
@@ -74,10 +87,6 @@ void run(const std::string& command, const Arguments& arguments) {
     print_linearity({"instructions", count, 64000}, arguments[1]);
   } else if (command == "scans") {
     print_scan_speed(arguments);
-  } else if (command == "starts") {
-    print_pack_starts();
-  } else if (command == "train") {
-    print_start_probabilities();
   } else if (command == "streams" && arguments.size() == 1) {
     write_streams(arguments[0]);
   } else if (command == "curve-streams" && arguments.size() == 1) {

@@ -173,6 +173,7 @@ void expect_edges(const Session& session, const std::vector<Line>& lines, double
 // Lines that meet at small angles at a post, and two that cross them.
 std::vector<Line> fan() {
   std::vector<Line> lines;
+  lines.reserve(11);
   for (int i = 0; i < 9; ++i) lines.push_back({{5, 5, -1}, {50.0, 12 + 1.3 * i, -1}});
   lines.push_back({{30, 2, -1}, {41, 40, -1}});
   lines.push_back({{12, 40.4, -1}, {55.7, 8.2, -1}, {57, 30, -1}});
@@ -246,7 +247,10 @@ TEST_CASE("breaklines: heights of lines are within the bound along all of them")
     return Place{column, row, std::floor(ground_at(column, row)) + more};
   };
   Line ridge;  // from post to post, some metres above and below
-  for (int i = 0; i < 40; ++i) ridge.push_back(above(8 + i, 10 + i / 2, i % 2 == 0 ? 4 : -3));
+  for (int i = 0; i < 40; ++i) {
+    const int half = i / 2;
+    ridge.push_back(above(8 + i, 10 + half, i % 2 == 0 ? 4 : -3));
+  }
   const std::vector<Line> lines = placed({ridge, {above(5, 40, 0), above(6, 41, 2)}}, 10);
   expect_edges(session, lines, 10, "--max-error 9", 9);
   expect_edges(session, lines, 10, "--max-error 9 --fast", 9);
@@ -300,15 +304,19 @@ TEST_CASE("breaklines: points have them too, at positions without a point") {
   const std::vector<Line> lines = {{{150, 140, -1}, {801.3, 822.2, -1}},
                                    {{180.5, 900, -1}, {500, 480.25, -1}, {900, 130, -1}}};
   write_lines(session, lines);
-  for (const auto& [options, step] :
-       {std::pair{"--max-error 4", 1.0},
-        {"--max-error 4 --xy-step 0.25", 0.25},
-        {"--max-error 6 --xy-step 5 --duplicates mean --bound-at lattice", 5.0}}) {
-    CAPTURE(options);
-    expect_run(session, std::string("encode p.xyz --breaklines lines.csv -o p.mtin ") + options);
+  struct Row {
+    const char* options;
+    double step;
+  };
+  for (const Row& row :
+       {Row{"--max-error 4", 1}, Row{"--max-error 4 --xy-step 0.25", 0.25},
+        Row{"--max-error 6 --xy-step 5 --duplicates mean --bound-at lattice", 5}}) {
+    CAPTURE(row.options);
+    expect_run(session,
+               std::string("encode p.xyz --breaklines lines.csv -o p.mtin ") + row.options);
     expect_run(session, "verify p.mtin p.xyz --breaklines lines.csv");
     const library::Mesh mesh = mesh_of(session, "p.mtin");
-    for (const Line& line : lines) CHECK(follows(mesh, line, step, 0));
+    for (const Line& line : lines) CHECK(follows(mesh, line, row.step, 0));
   }
 }
 
