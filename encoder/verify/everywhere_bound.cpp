@@ -16,9 +16,9 @@
 namespace microtin::verifying {
 namespace {
 
-constexpr int64_t kOneStep = 65536;         // of heights
-constexpr int64_t kFar = int64_t{1} << 41;  // in parts of a step: beyond all lattice heights
-constexpr int64_t kRounding = 2;            // units by which distances may be too large
+constexpr int64_t kOneStep = 65536;                   // of heights
+constexpr int64_t kBeyondLattice = int64_t{1} << 41;  // units: more than all heights are apart
+constexpr int64_t kRounding = 2;                      // units by which distances may be too large
 
 [[noreturn]] void refuse_everywhere(const std::string& why, const std::string& remedy) {
   throw Error(parameter("bound_at") + " everywhere " + why + "; " + remedy);
@@ -104,7 +104,8 @@ Tightening EverywhereBound::sure_limits(std::size_t post) const {
       const std::size_t cell = (y - 1) * width + x - 1;
       const Wide bend = bend_of_cell(raster_, cell);
       const auto quarter = static_cast<int64_t>(std::min<Wide>(
-          ceil_divide(magnitude(bend) * to_steps_.scale * kOneStep, to_steps_.step * 4), kFar));
+          ceil_divide(magnitude(bend) * to_steps_.scale * kOneStep, to_steps_.step * 4),
+          kBeyondLattice));
       const bool ascends = (x == column) == (y == row);  // the diagonal that ends here
       const int64_t allowed = allowed_in_cell(allowed_, cell, width);
       if (ascends == (bend > 0)) {
