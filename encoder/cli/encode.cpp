@@ -79,7 +79,7 @@ std::string merged(uint64_t points, DuplicateRule rule) {
 std::string at_true_places(const std::optional<Verification>& measured,
                            const std::optional<Decimal>& bound, const EncodeRequest& request) {
   if (!measured) return "";
-  const bool is_bound = request.lattice.bound_at == BoundAt::kTruePlaces && bound;
+  const bool is_bound = request.lattice.bound_at == BoundScope::kTruePlaces && bound;
   return "... where the points truly lie: at most " + to_string(measured->max_error) + ", rms " +
          to_string(measured->rms_error) + ", mean " + to_string(measured->mean_error) +
          (is_bound ? " (the bound holds there, too)" : "") + "; below the points: at most " +
@@ -176,7 +176,7 @@ std::string stream_report(const Source& source, const EncodedStream& encoded,
   text << '\n'
        << own_bounds(encoded.bounds) << at_true_places(encoded.true_places, encoded.bound, request)
        << beyond(measured, encoded.everywhere,
-                 request.lattice.bound_at == BoundAt::kEverywhere && encoded.bound)
+                 request.lattice.bound_at == BoundScope::kEverywhere && encoded.bound)
        << along_lines(encoded);
   return text.str();
 }

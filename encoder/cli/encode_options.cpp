@@ -180,11 +180,11 @@ void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>&
                 "elsewhere --max-error holds, and --max-bytes and --max-vertices scale all bounds");
   command.add_flag("--never-below", request->lattice.never_below,
                    "Keep the surface at or above every height, by at most the bound");
-  add_choice<BoundAt>(
+  add_choice<BoundScope>(
       command, "--bound-at", request->lattice.bound_at,
-      {{"points", BoundAt::kTruePlaces},
-       {"lattice", BoundAt::kLattice},
-       {"everywhere", BoundAt::kEverywhere}},
+      {{"points", BoundScope::kTruePlaces},
+       {"lattice", BoundScope::kLattice},
+       {"everywhere", BoundScope::kEverywhere}},
       "Choose where --max-error holds. points: at posts, and at points where they "
       "lie. lattice: at the lattice positions that stand for points. everywhere: on "
       "the whole surface of a raster, compared with the bilinear one of its posts");
@@ -217,7 +217,7 @@ void check_encode_options(EncodeRequest& request) {
   if (!request.preparation.obstacles.empty()) {
     if (!has_bound) throw CLI::ValidationError("--obstacles", "needs --max-error");
     request.lattice.never_below = true;
-    request.lattice.bound_at = BoundAt::kEverywhere;
+    request.lattice.bound_at = BoundScope::kEverywhere;
     if (request.surface == SurfaceKind::kUnknown) request.surface = SurfaceKind::kObstacles;
   }
   request.preparation.max_error = request.lattice.max_error;

@@ -153,10 +153,10 @@ class Budget {
   }
   bool is_too_low(const EncodedStream& encoded) const {
     if (!asked_.lattice.never_below) return false;
-    if (asked_.lattice.bound_at == BoundAt::kEverywhere) {
+    if (asked_.lattice.bound_at == BoundScope::kEverywhere) {
       return encoded.everywhere && encoded.everywhere->below.mantissa != 0;
     }
-    return asked_.lattice.bound_at == BoundAt::kTruePlaces && encoded.true_places &&
+    return asked_.lattice.bound_at == BoundScope::kTruePlaces && encoded.true_places &&
            encoded.true_places->max_below.mantissa != 0;
   }
 

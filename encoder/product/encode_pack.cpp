@@ -203,7 +203,7 @@ PackAttempt attempt(const PointCloud& cloud, const EncodeOptions& options,
   metadata.accuracy->bound = bound;
   metadata.bounds = stated_bounds(cloud.bounds, bound);
   if (!moves_points(metadata.placement, cloud)) return result;
-  const bool is_bound = options.lattice.bound_at == BoundAt::kTruePlaces;
+  const bool is_bound = options.lattice.bound_at == BoundScope::kTruePlaces;
   const PackFile pack(pack::write_pack(result.made.content, result.made.streams));
   const Verification found =
       verify_at_true_places(sampled(pack).height_at, metadata.placement, cloud, bound);

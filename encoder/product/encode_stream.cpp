@@ -103,7 +103,7 @@ struct Lessons {
 };
 
 bool is_kept_everywhere(const EncodeOptions& options) {
-  return options.lattice.bound_at == BoundAt::kEverywhere && options.lattice.max_error;
+  return options.lattice.bound_at == BoundScope::kEverywhere && options.lattice.max_error;
 }
 
 // Measures a raster between its posts, and narrows limits if the bound is to be kept there.
@@ -142,7 +142,7 @@ void measure_true_places(const PointCloud& cloud, const microtin_mesh* mesh, boo
 // The errors that a header notes. A bound that holds where points truly lie holds at both.
 void note_accuracy(EncodedStream& encoded, const EncodeOptions& options, Miss miss,
                    Metadata& metadata) {
-  const bool is_bound = options.lattice.bound_at == BoundAt::kTruePlaces;
+  const bool is_bound = options.lattice.bound_at == BoundScope::kTruePlaces;
   const std::optional<Verification>& there = encoded.true_places;
   if (miss == Miss::kWidens && encoded.bound) {
     const Decimal error = error_where_bound(encoded, options.lattice.bound_at);
@@ -195,7 +195,8 @@ Attempt assess(const Source& source, const EncodeOptions& options, Lessons& less
         Breaklines{expect_breaklines(decoded.mesh(), kept, lattice, metadata.placement), cost};
   }
   if (cloud != nullptr) {
-    const bool is_kept = options.lattice.bound_at == BoundAt::kTruePlaces && miss == Miss::kNarrows;
+    const bool is_kept =
+        options.lattice.bound_at == BoundScope::kTruePlaces && miss == Miss::kNarrows;
     measure_true_places(std::get<PointCloud>(kept), decoded.mesh(), is_kept, lattice, result);
   }
   if (const auto* const raster = std::get_if<Raster>(&source)) {
@@ -255,8 +256,8 @@ void refuse_scaling(const Source& source, const EncodeOptions& options) {
     throw Error(parameter("max_error") + " 0 cannot be scaled for " + limit + "; use a larger one");
   }
   const bool is_cloud = std::holds_alternative<PointCloud>(source);
-  const BoundAt where = options.lattice.bound_at;
-  if (is_cloud ? where != BoundAt::kLattice : where == BoundAt::kEverywhere) {
+  const BoundScope where = options.lattice.bound_at;
+  if (is_cloud ? where != BoundScope::kLattice : where == BoundScope::kEverywhere) {
     throw Error(parameter("error_map") + " and " + limit + " go together only with " +
                 parameter("bound_at") + (is_cloud ? " lattice" : " points") + "; use that, or " +
                 parameter("max_error"));
@@ -332,13 +333,14 @@ std::optional<Attempt> attempt_narrowly(const Source& source, const EncodeOption
 
 }  // namespace
 
-Decimal error_where_bound(const EncodedStream& encoded, BoundAt bound_at) {
+Decimal error_where_bound(const EncodedStream& encoded, BoundScope bound_at) {
   Decimal error = encoded.verification.max_error;
   const auto add = [&](Decimal other) {
     if (error <= other) error = other;
   };
-  if (encoded.true_places && bound_at == BoundAt::kTruePlaces) add(encoded.true_places->max_error);
-  if (encoded.everywhere && bound_at == BoundAt::kEverywhere) {
+  if (encoded.true_places && bound_at == BoundScope::kTruePlaces)
+    add(encoded.true_places->max_error);
+  if (encoded.everywhere && bound_at == BoundScope::kEverywhere) {
     add(encoded.everywhere->below);
     add(encoded.everywhere->above);
   }
@@ -369,7 +371,7 @@ EncodedStream encode_stream(const Source& source, const EncodeOptions& asked,
   if (!options.resume.empty()) {
     throw Error(parameter("resume") + " is for packs, and this is a stream; leave it out");
   }
-  if (options.lattice.bound_at == BoundAt::kEverywhere &&
+  if (options.lattice.bound_at == BoundScope::kEverywhere &&
       std::holds_alternative<PointCloud>(source)) {
     throw Error(parameter("bound_at") +
                 " everywhere is for rasters, and these are points; leave it out");

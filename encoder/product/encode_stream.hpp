@@ -46,7 +46,7 @@ EncodedStream encode_stream(const Source& source, const EncodeOptions& asked,
                             const Progress& progress);
 
 // The largest error where the bound is to hold.
-Decimal error_where_bound(const EncodedStream& encoded, BoundAt bound_at);
+Decimal error_where_bound(const EncodedStream& encoded, BoundScope bound_at);
 
 // Encodes without looking for a bound: only insertion of the worst sample keeps max_vertices.
 EncodedStream encode_measured(const Source& source, const EncodeOptions& options,

@@ -139,16 +139,16 @@ microtin::Coding coding_of(encoder::Coding coding) {
   return microtin::Coding::kBalanced;
 }
 
-terrain::BoundAt places_of(BoundAt bound_at) {
+terrain::BoundScope places_of(BoundAt bound_at) {
   switch (bound_at) {
     case BoundAt::kLattice:
-      return terrain::BoundAt::kLattice;
+      return terrain::BoundScope::kLattice;
     case BoundAt::kEverywhere:
-      return terrain::BoundAt::kEverywhere;
+      return terrain::BoundScope::kEverywhere;
     case BoundAt::kPoints:
       break;
   }
-  return terrain::BoundAt::kTruePlaces;
+  return terrain::BoundScope::kTruePlaces;
 }
 
 terrain::DuplicateRule rule_of(Duplicates duplicates) {

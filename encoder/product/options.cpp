@@ -59,7 +59,7 @@ void refuse_options_of_streams(const EncodeOptions& options) {
     throw Error(parameter("breaklines") +
                 " is for streams; make a stream (.mtin), or leave it out");
   }
-  if (options.lattice.bound_at == BoundAt::kEverywhere) {
+  if (options.lattice.bound_at == BoundScope::kEverywhere) {
     throw Error(parameter("bound_at") +
                 " everywhere is for streams; the safe heights of a pack include what lies between "
                 "posts, so leave it out or make a stream (.mtin)");

@@ -27,7 +27,7 @@ struct Tightening {
 // Where a bound holds: at posts, and at points where they truly lie; at the positions on the
 // lattice alone, if that moves points; or between the posts of a raster, too, compared with their
 // bilinear surface.
-enum class BoundAt : uint8_t { kTruePlaces, kLattice, kEverywhere };
+enum class BoundScope : uint8_t { kTruePlaces, kLattice, kEverywhere };
 
 struct LatticeOptions {
   std::optional<Decimal> xy_step;    // in the source's unit; posts for rasters
@@ -40,7 +40,7 @@ struct LatticeOptions {
   DuplicateRule duplicates = DuplicateRule::kMiddle;  // of points
   std::vector<Tightening> tightenings = {};           // by place
   std::vector<RealLine> breaklines = {};              // which become edges; with a bound
-  BoundAt bound_at = BoundAt::kTruePlaces;
+  BoundScope bound_at = BoundScope::kTruePlaces;
 };
 
 // The maps take the source's numbers, refined to multiples of 10^-decimals, to the lattice.

@@ -20,6 +20,8 @@
 using namespace microtin::tests;
 namespace library = microtin::encoder;
 
+// A namespace of its own: sources of a folder may be compiled as one.
+namespace microtin::breaklines_test {
 namespace {
 
 constexpr int kColumns = 61, kRows = 47;  // posts; row 0 is the southernmost
@@ -386,3 +388,5 @@ TEST_CASE("breaklines: what cannot be kept is refused") {
   CHECK(contains(refusal("1050 2050 900\n1300 2050 900\n", "--max-error 9 -o o.mtin"),
                  "the terrain at "));
 }
+
+}  // namespace microtin::breaklines_test

@@ -16,6 +16,8 @@
 using namespace microtin::tests;
 namespace library = microtin::encoder;
 
+// A namespace of its own: sources of a folder may be compiled as one.
+namespace microtin::everywhere_bound_test {
 namespace {
 
 constexpr int kPosts = 41;  // on a side, 10 apart, from 0 on
@@ -174,3 +176,5 @@ TEST_CASE("bound everywhere: refused where cells bend too much, naming the worst
                                  "--bound-at everywhere -o t.mtin"),
                  "--xy-step"));
 }
+
+}  // namespace microtin::everywhere_bound_test

@@ -17,6 +17,8 @@
 using namespace microtin::tests;
 namespace library = microtin::encoder;
 
+// A namespace of its own: sources of a folder may be compiled as one.
+namespace microtin::obstacles_test {
 namespace {
 
 constexpr double kNoTop = std::numeric_limits<double>::quiet_NaN();
@@ -211,3 +213,5 @@ TEST_CASE("obstacles: what cannot be understood is refused, with the file's name
                                  "-o o.mtin"),
                  "is for rasters"));
 }
+
+}  // namespace microtin::obstacles_test
