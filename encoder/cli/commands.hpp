@@ -28,7 +28,7 @@ struct EncodeRequest : EncodeOptions {
   std::string breaklines;  // the file of lines that become edges; empty: none
 };
 
-void run_encode(const EncodeRequest& request);
+void run_encode(EncodeRequest request);
 
 // Prints, for each shard, a line with the options that encode it as a single run would.
 void run_plan(const EncodeRequest& request, uint32_t shards);

@@ -122,10 +122,6 @@ std::string source_of(const Source& source, const Verification& measured) {
   return source_of_posts(measured.posts, measured.voids, raster.mended, raster.selection);
 }
 
-Decimal half_of(Decimal step) {
-  return make_decimal(Wide{step.mantissa} * 5, step.decimals + 1);
-}
-
 // A decimal that is not exact, with few digits, rounded up.
 std::string few_digits(double value) {
   constexpr double kParts = 1000;
@@ -149,7 +145,7 @@ std::string along_lines(const EncodedStream& encoded) {
   if (cost.unit_pieces != 0) {
     text += "... " + std::to_string(cost.unit_pieces) +
             " edges have the length of a step: with --xy-step " +
-            to_string(half_of(encoded.laid.xy_step)) + " lines need fewer vertices\n";
+            to_string(half(encoded.laid.xy_step)) + " lines need fewer vertices\n";
   }
   return text;
 }
@@ -274,9 +270,6 @@ std::string encode_tiles(const EncodeRequest& request, OutputFile& out) {
 }
 
 std::string encode_tiled(const EncodeRequest& request, OutputFile& out) {
-  if (!request.breaklines.empty()) {
-    throw Error("--breaklines is for streams; make a stream (.mtin), or leave it out");
-  }
   if (request.tiles) return encode_tiles(request, out);
   const OpenSource source = prepared_source(request.input, request.preparation);
   if (const auto* cloud = std::get_if<PointCloud>(&source)) {
@@ -291,13 +284,9 @@ std::string encode_whole(const EncodeRequest& request, OutputFile& out) {
   if (const auto* const cloud = std::get_if<PointCloud>(&source)) {
     announce_grid(request, *cloud);
   }
-  EncodeOptions options = request;
-  if (!request.breaklines.empty()) {
-    options.lattice.breaklines = read_breaklines(request.breaklines);
-  }
   const EncodedStream encoded = with_file_context(request.input, [&] {
     ProgressBar bar;
-    return encode_stream(source, options, bar.progress());
+    return encode_stream(source, request, bar.progress());
   });
   out.write(encoded.stream);
   return stream_report(source, encoded, request) + units(request, reference_of(source));
@@ -350,13 +339,16 @@ void expect_own_resume_file(const EncodeRequest& request) {
 
 }  // namespace
 
-void run_encode(const EncodeRequest& request) {
+void run_encode(EncodeRequest request) {
   refuse_overwriting(inputs_of(request), request.output);
   expect_own_resume_file(request);
   if (!request.tiles) expect_own_suffix(request.output, makes_pack(request));
   OutputFile out(request.output);  // fails early if it cannot be written
   announce_left_out(request);
   announce_memory(request);
+  if (!request.breaklines.empty()) {
+    request.lattice.breaklines = read_breaklines(request.breaklines);
+  }
   deliver(out, request.output,
           makes_pack(request) ? encode_tiled(request, out) : encode_whole(request, out));
   std::error_code none;

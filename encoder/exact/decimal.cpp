@@ -109,6 +109,10 @@ Decimal make_decimal_nearest(Wide mantissa, int decimals) {
   return make_decimal(round_divide(mantissa, power), decimals);
 }
 
+Decimal half(Decimal value) {
+  return make_decimal(Wide{value.mantissa} * 5, value.decimals + 1);
+}
+
 Wide mantissa_at(Decimal value, int decimals) {
   return Wide{value.mantissa} * power_of_ten(decimals - value.decimals);
 }

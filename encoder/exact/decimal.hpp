@@ -37,6 +37,9 @@ Decimal make_decimal(Wide mantissa, int decimals);
 Decimal make_decimal_up(Wide mantissa, int decimals);
 Decimal make_decimal_nearest(Wide mantissa, int decimals);
 
+// A half, whose last decimal is cut off if there are too many.
+Decimal half(Decimal value);
+
 // The mantissa that `value` has with `decimals` >= value.decimals decimals.
 Wide mantissa_at(Decimal value, int decimals);
 

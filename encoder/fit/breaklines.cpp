@@ -138,10 +138,7 @@ class Conforming {
   // Lets work(surface, decimation) remove vertices.
   template <class Work>
   void with_surface(const Work& work) {
-    std::vector<Point> places;
-    places.reserve(laid_.survey.samples.size());
-    for (const Sample& sample : laid_.survey.samples) places.push_back(sample.place);
-    const PostIndex posts(places);
+    const PostIndex posts(places_of(laid_.survey.samples));
     Surface surface(laid_.survey, ErrorModel{true}, posts, tin_);
     Decimation decimation(surface);
     work(surface, decimation);

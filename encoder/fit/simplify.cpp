@@ -17,6 +17,7 @@
 #include "encoder/fit/height_choice.hpp"
 #include "encoder/fit/refinement.hpp"
 #include "encoder/stream/encode.hpp"
+#include "encoder/terrain/convex_hull.hpp"
 #include "shared/predicates.hpp"
 
 namespace microtin::fit {
@@ -25,45 +26,15 @@ namespace microtin::fit {
 
 namespace {
 
-std::vector<Point> places_of(const std::vector<Sample>& samples) {
-  std::vector<Point> places;
-  places.reserve(samples.size());
-  for (const Sample& s : samples) places.push_back(s.place);
-  return places;
-}
-
 std::vector<uint32_t> all_of(const std::vector<Sample>& samples) {
   std::vector<uint32_t> all(samples.size());
   std::iota(all.begin(), all.end(), 0u);
   return all;
 }
 
-// Appends sample s to a chain that turns to the left, without those that lie behind then.
-void extend_chain(const std::vector<Sample>& samples, std::size_t start, uint32_t s,
-                  std::vector<uint32_t>& chain) {
-  while (chain.size() >= start + 2 &&
-         orient2d(samples[chain[chain.size() - 2]].place, samples[chain.back()].place,
-                  samples[s].place) <= 0) {
-    chain.pop_back();
-  }
-  chain.push_back(s);
-}
-
-// The corners of the hull of samples in lexicographic order (Andrew's monotone chain).
-std::vector<uint32_t> hull_corners(const std::vector<Sample>& samples) {
-  if (samples.empty()) return {};
-  const uint32_t n = static_cast<uint32_t>(samples.size());
-  std::vector<uint32_t> chain;
-  for (uint32_t s = 0; s < n; ++s) extend_chain(samples, 0, s, chain);
-  const std::size_t upper = chain.size() - 1;
-  for (uint32_t s = n - 1; s-- > 0;) extend_chain(samples, upper, s, chain);
-  chain.pop_back();
-  return chain;
-}
-
 // The corners of the hull, and all samples that must become vertices.
 std::vector<uint32_t> first_vertices(const Survey& survey) {
-  std::vector<uint32_t> first = hull_corners(survey.samples);
+  std::vector<uint32_t> first = hull_corners(places_of(survey.samples));
   if (survey.fixed.empty()) return first;
   const auto before = [](const Sample& sample, Point p) { return sample.place < p; };
   auto at = survey.samples.begin();
@@ -184,7 +155,7 @@ Tin finished(Surface& surface, Decimation& decimation, const Tin& before,
 
 // The vertices, and those samples that are fixed and were none.
 Tin with_fixed(const Survey& survey, const PostIndex& posts, Tin tin) {
-  std::vector<Point> places = terrain::places_of(tin);
+  std::vector<Point> places = places_of(tin);
   std::sort(places.begin(), places.end());
   for (const Point place : survey.fixed) {
     if (std::binary_search(places.begin(), places.end(), place)) continue;
@@ -272,10 +243,6 @@ std::vector<int> tenths_to_try(const SimplifyOptions& options, bool has_own_boun
 }
 
 constexpr int kOwnSteps = 4;
-
-Decimal half(Decimal value) {
-  return make_decimal(Wide{value.mantissa} * 5, value.decimals + 1);
-}
 
 // Lays the source out with every step that fits it.
 std::vector<Laid> lay_out_with_steps(const Source& source, LatticeOptions lattice,

@@ -7,12 +7,12 @@
 #include <cstddef>
 
 #include "encoder/base/error.hpp"
+#include "encoder/base/pi.hpp"
 #include "encoder/exact/decimal.hpp"
 
 namespace microtin::importing {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kMetresOfDegree = 110574;
 constexpr double kPieceDegrees = 0.25;  // of latitude: a metre has the same longitude in a piece
 constexpr int kCorners = 32;            // around an end; they are 0.5 % farther away than sides

@@ -188,6 +188,10 @@ class Raising {
   std::vector<std::size_t> raised_;  // some more than once
 };
 
+// The surface may fall to the bound in this many posts around raised ones, so that few vertices
+// make its slope.
+constexpr int64_t kSlopePosts = 3;
+
 // Wider bounds around raised posts: from their height to the bound along both axes.
 class Slopes {
  public:

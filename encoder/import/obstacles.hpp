@@ -15,10 +15,6 @@
 
 namespace microtin::importing {
 
-// How far an obstacle reaches: the surface falls to the bound in this many posts around the raised
-// ones, so that few vertices make its slope.
-constexpr int64_t kSlopePosts = 3;
-
 class Obstacles {
  public:
   // Reads a GeoJSON file: points, lines and polygons with a `top` above the zero of the terrain's

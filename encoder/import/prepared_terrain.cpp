@@ -300,10 +300,6 @@ Area area_of(const Preparation& preparation, const Reference& reference) {
   return area;
 }
 
-}  // namespace
-
-namespace {
-
 void raise_to_obstacles(const Preparation& preparation, Source& source) {
   auto* const raster = std::get_if<Raster>(&source);
   if (raster == nullptr) {

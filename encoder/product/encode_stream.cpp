@@ -49,7 +49,7 @@ void check_vertices(const Tin& tin, const EncodeOptions& options) {
 // An attempt: encoded, and measured by what a decoder makes of it.
 struct Attempt {
   EncodedStream encoded;
-  uint64_t missed = 0;  // points that do not keep the bound where they truly lie
+  uint64_t missed = 0;  // points, or posts around places, that do not keep the bound
 };
 
 void expect_promises(const Verification& measured, const WaterGauge& gauge,
@@ -271,13 +271,14 @@ void refuse_scaling(const Source& source, const EncodeOptions& options) {
   const Bend bend = most_bent(raster);
   const LatticeOptions& lattice = options.lattice;
   const Wide quarter = Wide{bend.by.mantissa} * 25, parts = lattice.never_below ? 2 : 1;
+  const Decimal enough = make_decimal(quarter * parts, bend.by.decimals + 2);
   throw Error(parameter("max_error") + ' ' + to_string(*lattice.max_error) +
               " cannot be kept everywhere: it is missed around " + std::to_string(last.missed) +
               " posts. The cell from x " + CoordinateText(raster.x)(bend.column) + ", y " +
               CoordinateText(raster.y)(bend.row) + " bends by " + to_string(bend.by) +
-              " between its posts; use more than " +
-              to_string(make_decimal(quarter * parts, bend.by.decimals + 2)) + ", or " +
-              parameter("bound_at") + " points");
+              " between its posts; use " +
+              (*lattice.max_error <= enough ? "more than " + to_string(enough) : "a larger one") +
+              ", or " + parameter("bound_at") + " points");
 }
 
 // Between posts a surface is farther off. On mountains and fractals, one fitted within this part of
@@ -375,6 +376,10 @@ EncodedStream encode_stream(const Source& source, const EncodeOptions& asked,
       std::holds_alternative<PointCloud>(source)) {
     throw Error(parameter("bound_at") +
                 " everywhere is for rasters, and these are points; leave it out");
+  }
+  if (options.lattice.bound_at == BoundScope::kEverywhere && !options.lattice.breaklines.empty()) {
+    throw Error(parameter("breaklines") + " and " + parameter("bound_at") +
+                " everywhere do not go together; leave one of them out");
   }
   // Fails before the work, if it does.
   std::visit([&](const auto& one) { metadata_of(options, one); }, source);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
+#include "encoder/terrain/convex_hull.hpp"
 #include "shared/lattice.hpp"
 #include "shared/predicates.hpp"
 
@@ -22,19 +23,9 @@ double coordinate_on(Decimal value, const Axis& axis) {
          static_cast<double>(at->part) / static_cast<double>(at->parts);
 }
 
-// The convex hull of places in lexicographic order (Andrew's monotone chain).
-std::vector<Point> hull_of_places(const std::vector<Point>& places) {
+std::vector<Point> hull_of(const std::vector<Point>& places) {
   std::vector<Point> hull;
-  const auto extend = [&](std::size_t start, Point p) {
-    while (hull.size() >= start + 2 && orient2d(hull[hull.size() - 2], hull.back(), p) <= 0) {
-      hull.pop_back();
-    }
-    hull.push_back(p);
-  };
-  for (const Point p : places) extend(0, p);
-  const std::size_t upper = hull.empty() ? 0 : hull.size() - 1;
-  for (std::size_t i = places.size(); i-- > 1;) extend(upper, places[i - 1]);
-  if (hull.size() > 1) hull.pop_back();
+  for (const uint32_t corner : hull_corners(places)) hull.push_back(places[corner]);
   return hull;
 }
 
@@ -230,10 +221,7 @@ Point nearest_position(LinePlace place) {
 }
 
 LineGround line_ground_of(const Survey& survey, double x_spacing, double y_spacing) {
-  std::vector<Point> places;
-  places.reserve(survey.samples.size());
-  for (const Sample& sample : survey.samples) places.push_back(sample.place);
-  return {hull_of_places(places), survey.voids, x_spacing, y_spacing};
+  return {hull_of(places_of(survey.samples)), survey.voids, x_spacing, y_spacing};
 }
 
 LineGround line_ground_of(const Source& source, const Placement& lattice) {
@@ -252,7 +240,7 @@ LineGround line_ground_of(const Source& source, const Placement& lattice) {
   const auto spacing = [](const LatticeMap& map) {
     return static_cast<double>(map.scale) / static_cast<double>(map.step);
   };
-  return {hull_of_places(places), std::move(voids), spacing(x_map), spacing(y_map)};
+  return {hull_of(places), std::move(voids), spacing(x_map), spacing(y_map)};
 }
 
 std::vector<LatticeLine> lines_over(const LineGround& ground, const std::vector<RealLine>& lines,

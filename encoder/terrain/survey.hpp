@@ -51,6 +51,13 @@ inline std::vector<Point> places_of(const Tin& tin) {
   return places;
 }
 
+inline std::vector<Point> places_of(const std::vector<Sample>& samples) {
+  std::vector<Point> places;
+  places.reserve(samples.size());
+  for (const Sample& sample : samples) places.push_back(sample.place);
+  return places;
+}
+
 }  // namespace microtin::terrain
 
 #endif

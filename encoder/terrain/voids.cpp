@@ -8,10 +8,10 @@
 #include <iterator>
 #include <utility>
 
+#include "encoder/base/pi.hpp"
+
 namespace microtin::terrain {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Calls visit(index) for the posts next to post `index`, void ones too, in its row and column.
 template <class Visit>

@@ -114,10 +114,10 @@ class Largest {
 
 // Keeps by how much distances are larger than allowed, at the posts where they are or next to
 // which.
-class Misses {
+class ExcessAtPosts {
  public:
-  Misses(const Raster& raster, const Allowed& allowed)
-      : width_(raster.width), allowed_(allowed), misses_(raster.heights.size()) {}
+  ExcessAtPosts(const Raster& raster, const Allowed& allowed)
+      : width_(raster.width), allowed_(allowed), excess_(raster.heights.size()) {}
 
   // Whether a post, or the cell to the north-east of it, may be missed. What is allowed at the post
   // is at most what is allowed in the cell.
@@ -127,35 +127,35 @@ class Misses {
   }
   void add_post(int64_t column, int64_t row, Wide below, Wide above) {
     const std::size_t post = post_at(column, row);
-    keep(post, missed(allowed_.distances[post], below, above));
+    keep(post, excess_of(allowed_.distances[post], below, above));
   }
   void add_cell(int64_t column, int64_t row, Wide below, Wide above) {
     const std::size_t post = post_at(column, row);
-    const Miss miss = missed(allowed_in_cell(allowed_, post, width_), below, above);
+    const Excess excess = excess_of(allowed_in_cell(allowed_, post, width_), below, above);
     for (const std::size_t corner : {post, post + 1, post + width_, post + width_ + 1}) {
-      keep(corner, miss);
+      keep(corner, excess);
     }
   }
-  std::vector<Miss> take() { return std::move(misses_); }
+  std::vector<Excess> take() { return std::move(excess_); }
 
  private:
   std::size_t post_at(int64_t column, int64_t row) const {
     return static_cast<std::size_t>(row) * width_ + static_cast<std::size_t>(column);
   }
-  Miss missed(int64_t allowed, Wide below, Wide above) const {
+  Excess excess_of(int64_t allowed, Wide below, Wide above) const {
     const auto beyond = [](Wide distance, int64_t most) {
       return static_cast<int64_t>(std::clamp<Wide>(distance - most, 0, kHighest));
     };
     return {beyond(below, allowed_.never_below ? 0 : allowed), beyond(above, allowed)};
   }
-  void keep(std::size_t post, Miss miss) {
-    misses_[post] = {std::max(misses_[post].below, miss.below),
-                     std::max(misses_[post].above, miss.above)};
+  void keep(std::size_t post, Excess excess) {
+    excess_[post] = {std::max(excess_[post].below, excess.below),
+                     std::max(excess_[post].above, excess.above)};
   }
 
   std::size_t width_;
   const Allowed& allowed_;
-  std::vector<Miss> misses_;
+  std::vector<Excess> excess_;
 };
 
 // Doubles find what the record may want; only that is computed exactly.
@@ -457,11 +457,12 @@ int64_t allowed_in_cell(const Allowed& allowed, std::size_t post, std::size_t wi
   return std::max({all[post], all[post + 1], all[post + width], all[post + width + 1]});
 }
 
-std::optional<std::vector<Miss>> measure_misses(const microtin_mesh* mesh, const Placement& lattice,
-                                                const Raster& raster, const Allowed& allowed) {
-  Misses misses(raster, allowed);
-  if (!compare_all(mesh, lattice, raster, misses)) return std::nullopt;
-  return misses.take();
+std::optional<std::vector<Excess>> measure_excess(const microtin_mesh* mesh,
+                                                  const Placement& lattice, const Raster& raster,
+                                                  const Allowed& allowed) {
+  ExcessAtPosts excess(raster, allowed);
+  if (!compare_all(mesh, lattice, raster, excess)) return std::nullopt;
+  return excess.take();
 }
 
 std::optional<Distances> measure_everywhere(const microtin_mesh* mesh, const Placement& lattice,

@@ -39,13 +39,14 @@ int64_t allowed_in_cell(const Allowed& allowed, std::size_t post, std::size_t wi
 
 // By how much a surface is farther below or above than allowed, at most, at a post and in the cells
 // around it. In Gap's units, rounded up; 0: it is not.
-struct Miss {
+struct Excess {
   int64_t below = 0, above = 0;
 };
 
-// The misses of all posts. Otherwise as measure_gap.
-std::optional<std::vector<Miss>> measure_misses(const microtin_mesh* mesh, const Placement& lattice,
-                                                const Raster& raster, const Allowed& allowed);
+// Measures it at all posts, as measure_gap does.
+std::optional<std::vector<Excess>> measure_excess(const microtin_mesh* mesh,
+                                                  const Placement& lattice, const Raster& raster,
+                                                  const Allowed& allowed);
 
 // Measures these distances in the unit of heights.
 std::optional<Distances> measure_everywhere(const microtin_mesh* mesh, const Placement& lattice,

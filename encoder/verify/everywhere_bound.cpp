@@ -32,15 +32,14 @@ int32_t in_steps(Wide units) {
 // The bounds of posts, rounded down; those of posts without one are larger than all distances.
 std::vector<int64_t> allowed_at_posts(const Raster& raster, const Decimal& max_error,
                                       const LatticeMap& to_steps) {
-  constexpr int64_t kUnlimited = int64_t{1} << 41;
   const BoundOf bound_of(raster.bounds, max_error, kMaxDecimals);
   const Wide parts = to_steps.step * exact::power_of_ten(kMaxDecimals - raster.decimals);
-  std::vector<int64_t> allowed(raster.heights.size(), kUnlimited);
+  std::vector<int64_t> allowed(raster.heights.size(), kBeyondLattice);
   for (std::size_t post = 0; post < allowed.size(); ++post) {
     const Wide bound = bound_of(post);
     if (bound == BoundOf::kNone) continue;
     const auto [whole, rest] = exact::multiply_divide(bound * kOneStep, to_steps.scale, parts);
-    allowed[post] = static_cast<int64_t>(std::min<Wide>(whole, kUnlimited));
+    allowed[post] = static_cast<int64_t>(std::min<Wide>(whole, kBeyondLattice));
   }
   return allowed;
 }
@@ -122,40 +121,40 @@ Tightening EverywhereBound::sure_limits(std::size_t post) const {
           true};
 }
 
-void EverywhereBound::narrow(std::size_t post, int32_t here, Miss miss) {
-  const auto [found, is_new] = limits_.try_emplace(post, sure_limits(post));
-  Tightening& limits = found->second;
-  if (!is_new) {  // in vain: become what is sure
-    limits = sure_limits(post);
+void EverywhereBound::narrow(std::size_t post, int32_t here, Excess excess) {
+  Tightening limits = sure_limits(post);
+  if (limits_.count(post) != 0) {  // narrower limits were in vain
     if (limits.lowest > limits.highest) {
       limits.lowest = limits.highest =
           static_cast<int32_t>((int64_t{limits.lowest} + limits.highest) / 2);
     }
-    return;
+  } else {
+    const auto more = [](int64_t by) { return Wide{by} + by / 4 + kRounding; };
+    limits = {limits.place, std::numeric_limits<int32_t>::min(),
+              std::numeric_limits<int32_t>::max()};
+    if (excess.below != 0) limits.lowest = in_steps(here + more(excess.below));
+    if (excess.above != 0) limits.highest = in_steps(here - more(excess.above));
   }
-  limits = {limits.place, std::numeric_limits<int32_t>::min(), std::numeric_limits<int32_t>::max()};
-  const auto more = [](int64_t by) { return Wide{by} + by / 4 + kRounding; };
-  if (miss.below != 0) limits.lowest = in_steps(here + more(miss.below));
-  if (miss.above != 0) limits.highest = in_steps(here - more(miss.above));
+  limits_[post] = limits;
 }
 
 uint64_t EverywhereBound::see(const microtin_mesh* mesh) {
-  const auto misses = measure_misses(mesh, lattice_, raster_, allowed_);
-  if (!misses) {
+  const auto excess = measure_excess(mesh, lattice_, raster_, allowed_);
+  if (!excess) {
     refuse_everywhere("cannot be computed for heights of so many digits",
                       "use " + parameter("bound_at") + " points");
   }
   uint64_t missed = 0;
   uint32_t hint = 0;
-  for (std::size_t post = 0; post < misses->size(); ++post) {
-    const Miss miss = (*misses)[post];
-    if (miss.below == 0 && miss.above == 0) continue;
+  for (std::size_t post = 0; post < excess->size(); ++post) {
+    const Excess one = (*excess)[post];
+    if (one.below == 0 && one.above == 0) continue;
     ++missed;
     const auto place = [](std::size_t at) { return static_cast<int32_t>(at * 256); };
     const int32_t x = place(post % raster_.width), y = place(post / raster_.width);
     int32_t here = 0;
     if (microtin_mesh_height_at(mesh, x, y, &hint, &here, 0, 0) == MICROTIN_QUERY_OK) {
-      narrow(post, here, miss);
+      narrow(post, here, one);
     }
   }
   return missed;

@@ -46,7 +46,7 @@ class EverywhereBound {
 
  private:
   Tightening sure_limits(std::size_t post) const;
-  void narrow(std::size_t post, int32_t here, Miss miss);
+  void narrow(std::size_t post, int32_t here, Excess excess);
 
   const Raster& raster_;
   Placement lattice_;

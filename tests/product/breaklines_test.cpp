@@ -375,6 +375,8 @@ TEST_CASE("breaklines: what cannot be kept is refused") {
   const std::string line = "1050 2050\n1500 2300\n";
   CHECK(contains(refusal(line, "-o o.mtin"), "--breaklines needs a bound"));
   CHECK(contains(refusal(line, "--max-error 9 -o o.mtp"), "--breaklines is for streams"));
+  CHECK(contains(refusal(line, "--max-error 9 --bound-at everywhere -o o.mtin"),
+                 "do not go together"));
   CHECK(contains(refusal("", "--max-error 9 -o o.mtin"), "l.csv: has no line"));
   CHECK(contains(refusal("1 2\n", "--max-error 9 -o o.mtin"), "a single position"));
   CHECK(contains(refusal("1 2\n3 x\n", "--max-error 9 -o o.mtin"), "l.csv:2: "));
