@@ -149,7 +149,9 @@ inline void step_record(std::string& record, uint8_t point_format, int64_t pace,
     const int64_t steps = once_in(60)   ? static_cast<int64_t>(random()) << 20
                           : once_in(10) ? static_cast<int64_t>(random() % 1200) - 600
                                         : 1;
-    put(time, number_at<int64_t>(record, time) + steps * pace + (once_in(2) ? 3 : 0));
+    const uint64_t rest = once_in(2) ? 3 : 0;  // times wrap around
+    put(time, number_at<uint64_t>(record, time) +
+                  static_cast<uint64_t>(steps) * static_cast<uint64_t>(pace) + rest);
   }
   change(is_recent ? 30 : time != 0 ? 28 : 20, record.size(), 6);
 }
