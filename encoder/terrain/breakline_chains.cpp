@@ -149,10 +149,11 @@ std::vector<double> without_repeats(std::vector<double> numbers) {
 }
 
 Chain chain_of(LatticeLine&& line, const std::vector<double>& crossings, LineRoom room) {
-  std::vector<double> kept = crossings;
-  kept.insert(kept.end(), {0, line.length()});
+  std::vector<double> stops = crossings;
+  stops.insert(stops.end(), {0, line.length()});
+  stops = without_repeats(std::move(stops));
   std::vector<LineVertex> wanted;
-  for (const double along : without_repeats(std::move(kept))) {
+  for (const double along : stops) {
     const LineVertex next{nearest_position(line.at(along)), along};
     if (wanted.empty()) {
       wanted.push_back(next);

@@ -252,7 +252,7 @@ std::vector<LatticeLine> lines_over(const LineGround& ground, const std::vector<
     for (const RealPoint& p : lines[number]) {
       places.push_back({coordinate_on(p.x, lattice.x), coordinate_on(p.y, lattice.y),
                         has_heights && p.z ? coordinate_on(*p.z, lattice.z) : 0});
-      if (places.size() > 1) expect_one_height(places.end()[-2], places.back(), lattice);
+      if (places.size() > 1) expect_one_height(places[places.size() - 2], places.back(), lattice);
     }
     LineCutter(ground, has_heights, static_cast<uint32_t>(number), all).cut(places);
   }
