@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Puts the shared library into the package: that of the environment's MICROTIN_LIBRARY, or one built of the sources
-next to this file, which takes CMake, a C++ compiler and the packages of the tool."""
+next to this file, which takes CMake, a C++ compiler and the packages of the tool. If the environment has
+MICROTIN_SYSTEM_LIBRARY, the package contains no library, and loads the one that another package installed."""
 
 import os
 import re
@@ -18,6 +19,7 @@ except ImportError:  # setuptools before 70.1
 
 SOURCES = Path(__file__).resolve().parent
 BUILD = SOURCES / "build" / "python-package"  # so that nothing is built among the sources
+USES_SYSTEM_LIBRARY = bool(os.environ.get("MICROTIN_SYSTEM_LIBRARY"))
 
 
 def version():
@@ -59,7 +61,7 @@ class Binary(Distribution):
 BUILD.mkdir(parents=True, exist_ok=True)
 setup(
     version=version(),
-    distclass=Binary,
-    cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": WheelOfThePlatform},
+    distclass=Distribution if USES_SYSTEM_LIBRARY else Binary,
+    cmdclass={} if USES_SYSTEM_LIBRARY else {"build_py": BuildWithLibrary, "bdist_wheel": WheelOfThePlatform},
     options={"build": {"build_base": str(BUILD)}, "egg_info": {"egg_base": str(BUILD)}},
 )

@@ -13,7 +13,7 @@ function(add_document name folder)
   cmake_path(GET file PARENT_PATH parent)
   file(MAKE_DIRECTORY ${parent})
   add_custom_command(TARGET microtin POST_BUILD COMMAND microtin ${ARGN} > ${file} VERBATIM)
-  install(FILES ${file} DESTINATION ${folder})
+  install(FILES ${file} DESTINATION ${folder} COMPONENT tool)
 endfunction()
 
 add_document(microtin.1 ${CMAKE_INSTALL_MANDIR}/man1 manual)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 # install.sh PYTHON FOLDER: packs the sources for Python offline into FOLDER, of these a wheel, with the library of the
 # environment's MICROTIN_LIBRARY, and installs it; its tests pass there without that. Sources and wheel hold what they must.
+# The package without a library works with the one that the loader finds.
 set -eu
 python=$1 folder=$2
 sources=$(cd "$(dirname "$0")/../.." && pwd)
@@ -31,3 +32,12 @@ assert "MIT License" in text["LICENSE"] and "zlib" in text["THIRD_PARTY_LICENSES
 END
 "$python" -m pip install --quiet --no-index --no-deps --root-user-action ignore --target "$folder/site" microtin-*.whl
 env -u MICROTIN_LIBRARY PYTHONPATH="$folder/site" "$python" "$sources/tests/python/microtin_test.py"
+
+# As packages of distributions are: for any machine, with the library of another package.
+MICROTIN_SYSTEM_LIBRARY=1 "$python" -m pip wheel --quiet --no-index --no-build-isolation --no-deps \
+  --wheel-dir "$folder/any" "$folder/unpacked"
+"$python" -m pip install --quiet --no-index --no-deps --root-user-action ignore --target "$folder/any/site" \
+  "$folder"/any/microtin-*-py3-none-any.whl
+[ -z "$(find "$folder/any/site" -name '*.so*')" ]
+env -u MICROTIN_LIBRARY LD_LIBRARY_PATH="$(dirname "$MICROTIN_LIBRARY")" PYTHONPATH="$folder/any/site" \
+  "$python" "$sources/tests/python/microtin_test.py" Streams Library

@@ -377,6 +377,11 @@ class Profiles(unittest.TestCase):
             self.tin.line_of_sight((0, 0, 1), (9, 9, 1), end_above="sea")
 
 
+class Library(unittest.TestCase):
+    def test_the_installed_library_has_the_version_of_the_structs(self):
+        self.assertEqual(microtin._library.MAJOR_VERSION, int(microtin.__version__.partition(".")[0]))
+
+
 class Refusals(unittest.TestCase):
     def refused(self, sentence, *arguments, **options):
         with self.assertRaisesRegex(microtin.Error, sentence):

@@ -9,7 +9,9 @@ import os
 from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_int, c_int64, c_size_t
 from ctypes import c_uint8, c_uint32, c_uint64, c_void_p
 from pathlib import Path
-from typing import Any
+from typing import Any, Optional
+
+MAJOR_VERSION = 0  # of the library whose structs are below
 
 
 class Error(RuntimeError):
@@ -264,10 +266,20 @@ def _checked(status: int, _function: Any, _arguments: Any) -> None:
     raise Error(message if status != INTERNAL else f"a fault of microtin's own: {message}")
 
 
+def _installed() -> Optional[str]:
+    """The system's library: of the major version whose structs are here, if the loader finds that; or any."""
+    name = f"libmicrotin.so.{MAJOR_VERSION}"
+    try:
+        ctypes.CDLL(name)
+    except OSError:
+        return ctypes.util.find_library("microtin")
+    return name
+
+
 def _load() -> ctypes.CDLL:
     """The library of the environment's MICROTIN_LIBRARY, of this package, or of the system."""
     packed = Path(__file__).with_name("libmicrotin.so")
-    name = os.environ.get("MICROTIN_LIBRARY") or (str(packed) if packed.exists() else ctypes.util.find_library("microtin"))
+    name = os.environ.get("MICROTIN_LIBRARY") or (str(packed) if packed.exists() else _installed())
     if name is None:
         raise ImportError("libmicrotin.so is neither in the package nor installed; MICROTIN_LIBRARY names another")
     loaded = ctypes.CDLL(name)
