@@ -27,6 +27,10 @@ def version():
     return ".".join(re.findall(r"define MICROTIN_VERSION_[A-Z]+ (\d+)", header))
 
 
+def project_url():
+    return re.search(r'HOMEPAGE_URL "([^"]+)"', (SOURCES / "CMakeLists.txt").read_text()).group(1)
+
+
 def built_library(folder):
     # The packages of the tool have Ninja, and CMake asks for make.
     generator = ["-G", "Ninja"] if shutil.which("ninja") and "CMAKE_GENERATOR" not in os.environ else []
@@ -61,6 +65,7 @@ class Binary(Distribution):
 BUILD.mkdir(parents=True, exist_ok=True)
 setup(
     version=version(),
+    project_urls={"Homepage": project_url()},
     distclass=Distribution if USES_SYSTEM_LIBRARY else Binary,
     cmdclass={} if USES_SYSTEM_LIBRARY else {"build_py": BuildWithLibrary, "bdist_wheel": WheelOfThePlatform},
     options={"build": {"build_base": str(BUILD)}, "egg_info": {"egg_base": str(BUILD)}},

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""bundle.py MODULE.wasm VERSION FOLDER: makes the npm package: the sources with the WebAssembly within as one module,
+"""bundle.py MODULE.wasm VERSION URL FOLDER: makes the npm package: the sources with the WebAssembly within as one module,
 and what accompanies it. With zopfli and esbuild."""
 import base64
 import json
@@ -25,11 +25,11 @@ def module(wasm, version):
                   f"--define:MICROTIN_WASM={json.dumps(text)}", f"--define:MICROTIN_VERSION={json.dumps(version)}")
 
 
-def main(wasm, version, folder):
+def main(wasm, version, url, folder):
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "microtin.js").write_bytes(module(wasm, version))
-    description = (HERE / "package.json").read_text().replace("@VERSION@", version)
+    description = (HERE / "package.json").read_text().replace("@VERSION@", version).replace("@URL@", url)
     (folder / "package.json").write_text(description)
     for file in [*(HERE / name for name in BESIDE), ROOT / "LICENSE"]:
         shutil.copy(file, folder)
