@@ -13,9 +13,9 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from conventions import ROOT, documents  # noqa: E402
 
-# Options of other programs, and of builds with GDAL.
+# Options of other programs, such as .ci/release, and of builds with GDAL.
 ALONE = ("--help", "--version", "reference", "manual", "completion")
-OTHERS = {"--gc-sections", "--preset", "--allow-vrt", "--band"}
+OTHERS = {"--gc-sections", "--preset", "--trial", "--allow-vrt", "--band"}
 SEPARATORS = ("|", "||", "&&", ";", "&")
 
 
