@@ -31,6 +31,12 @@ def project_url():
     return re.search(r'HOMEPAGE_URL "([^"]+)"', (SOURCES / "CMakeLists.txt").read_text()).group(1)
 
 
+def long_description():
+    """The page of the documents; its links lead to the project's other pages, of this version."""
+    page = (SOURCES / "encoder/docs/python.md").read_text()
+    return re.sub(r"\]\((?!https?:)", f"]({project_url()}/blob/v{version()}/encoder/docs/", page)
+
+
 def built_library(folder):
     # The packages of the tool have Ninja, and CMake asks for make.
     generator = ["-G", "Ninja"] if shutil.which("ninja") and "CMAKE_GENERATOR" not in os.environ else []
@@ -66,6 +72,8 @@ BUILD.mkdir(parents=True, exist_ok=True)
 setup(
     version=version(),
     project_urls={"Homepage": project_url()},
+    long_description=long_description(),
+    long_description_content_type="text/markdown",
     distclass=Distribution if USES_SYSTEM_LIBRARY else Binary,
     cmdclass={} if USES_SYSTEM_LIBRARY else {"build_py": BuildWithLibrary, "bdist_wheel": WheelOfThePlatform},
     options={"build": {"build_base": str(BUILD)}, "egg_info": {"egg_base": str(BUILD)}},

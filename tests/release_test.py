@@ -124,7 +124,7 @@ class Refusals(unittest.TestCase):
             "decoder/packages/meson/meson.build": ("@VERSION@", "1.2.3"),
             "decoder/packages/npm/package.json": ("@VERSION@", "1.2.3"),
             "decoder/packages/platformio/library.json": ("@VERSION@", "1.2.3"),
-            "pyproject.toml": ('dynamic = ["version", "urls"]', 'version = "1.2.3"'),
+            "pyproject.toml": ('dynamic = ["version", "urls", "readme"]', 'version = "1.2.3"'),
             "setup.py": ("version=version()", 'version="1.2.3"'),
         }
 
