@@ -13,6 +13,7 @@ widths   no struct of a C header has an enumeration, whose width flags change, a
 options  below the command line no text writes an option, which each user of the library spells in its own way
 locale   the encoder's library knows no decimal comma, whatever the program that uses it has chosen
 parts    each program of .ci/parts runs in a workflow of .github, and workflows run no other
+changelog the section of a version has entries of one line under Added, Changed, Fixed and Removed
 prose    documents have short, plain sentences; the change log, the report of the benchmarks and laboratory notes may differ
 
 conventions.py messages [FOLDER]: prints the texts of errors and warnings, "file:line: message", for people to read
@@ -226,6 +227,7 @@ def options(folder):
     ]
 
 
+KINDS_OF_CHANGE = ("Added", "Changed", "Fixed", "Removed")
 # What makes a message: exceptions, and the functions that throw or print one.
 MESSAGE = re.compile(r"""
     \b(?:\w*Error|Damaged|InternalFault|ReportLost|NobodyReads|fail\w*|refuse\w*|expect\w*|warn\w*|announce\w*|with_place)
@@ -303,6 +305,21 @@ def prose(folder):
     return found
 
 
+def changelog(folder):
+    """Sections of versions; those of formats before 1.0 are history. A list may have topics ("Devices:") and tables."""
+    found, headings = [], None
+    for number, line in enumerate(lines_of(folder / "CHANGELOG.md"), 1):
+        if line.startswith("## "):
+            headings = [] if re.fullmatch(r"## (Unreleased|\d+\.\d+\.\d+( - \S+)?)", line) else None
+        elif headings is not None and line.startswith("### "):
+            headings.append(line[4:])
+            if headings != [name for name in KINDS_OF_CHANGE if name in headings]:
+                found.append(f"CHANGELOG.md:{number} has {line[4:]}, not Added, Changed, Fixed, Removed in this order")
+        elif headings and not re.fullmatch(r"|- .*|[A-Z].*:| *\|.*", line):
+            found.append(f"CHANGELOG.md:{number} is not an entry of one line: {line[:40]}")
+    return found
+
+
 def parts(folder):
     programs = {program.name for program in (folder / ".ci/parts").iterdir()}
     text = "\n".join(workflow.read_text() for workflow in sorted((folder / ".github/workflows").glob("*.yml")))
@@ -315,7 +332,7 @@ def parts(folder):
 
 def main():
     folder = Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT
-    checks = {check.__name__: check for check in (length, links, pointers, comments, columns, merges, licence, faults, widths, options, locale, parts, prose, messages)}
+    checks = {check.__name__: check for check in (length, links, pointers, comments, columns, merges, licence, faults, widths, options, locale, parts, changelog, prose, messages)}
     found = checks[sys.argv[1]](folder)
     for fault in found:
         print("rejected:", fault)
