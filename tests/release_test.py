@@ -169,6 +169,27 @@ class Refusals(unittest.TestCase):
 
         self.refused(plant, f"build/artefacts/{VERSION} is there already; move", committed=False, trial=False)
 
+    def test_tools_that_are_not_installed(self):
+        """Each part's tools, and of no part; a part that is left out needs none."""
+        tools = self.ready.parent / f"{self.ready.name}-tools"
+        tools.mkdir()
+        self.addCleanup(shutil.rmtree, tools)
+        for name in ("dirname", "git", "sed"):
+            (tools / name).symlink_to(shutil.which(name))
+        (tools / "python3").symlink_to(sys.executable)
+
+        def refusal(*arguments):
+            release = run(".ci/release", *arguments, VERSION, folder=self.ready, PATH=str(tools))
+            self.assertEqual((release.returncode, release.stdout), (1, ""), release.stderr)
+            return release.stderr
+
+        self.assertEqual(refusal(), "refused: cmake is not installed; run .ci/install tool release\n")
+        for name in ("cmake", "ninja", "g++", "clang++", "wasm-ld", "wasm-opt", "zopfli", "esbuild", "objdump"):
+            (tools / name).symlink_to(shutil.which("false"))
+        self.assertRegex(refusal(), r"^refused: .*g\+\+-posix is not installed; .*--without windows\n$")
+        self.assertRegex(refusal("--without", "windows"), r"^refused: npm is not installed; .*--without npm\n$")
+        self.assertFalse((self.ready / "build").exists())
+
     def test_wrong_arguments(self):
         for arguments in ([], ["next"], ["--without", "linux", VERSION], ["--sloppy", VERSION]):
             with self.subTest(arguments):
