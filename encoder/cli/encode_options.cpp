@@ -216,9 +216,7 @@ void check_encode_options(EncodeRequest& request) {
   }
   if (!request.preparation.obstacles.empty()) {
     if (!has_bound) throw CLI::ValidationError("--obstacles", "needs --max-error");
-    request.lattice.never_below = true;
-    request.lattice.bound_at = BoundScope::kEverywhere;
-    if (request.surface == SurfaceKind::kUnknown) request.surface = SurfaceKind::kObstacles;
+    product::imply_obstacles(request);
   }
   request.preparation.max_error = request.lattice.max_error;
   request.lattice.water_level = request.preparation.water_level;

@@ -80,6 +80,16 @@ void GDALRegister_MTIN() {
       "largest error after each phase'/>"
       "<Option name='ERROR_MAP' type='string' description='A bound for each height: a raster of "
       "bounds, or polygons with a property max_error (.geojson); elsewhere MAX_ERROR holds'/>"
+      "<Option name='AREA' type='string' description='Keep the heights in the polygons of this "
+      "GeoJSON file'/>"
+      "<Option name='ROUTE' type='string' description='Keep the heights near the lines of this "
+      "GeoJSON file; needs ROUTE_WIDTH'/>"
+      "<Option name='ROUTE_WIDTH' type='string' description='Metres around a route, half on each "
+      "side'/>"
+      "<Option name='BREAKLINES' type='string' description='Of streams: a file of lines along "
+      "which the surface has edges'/>"
+      "<Option name='OBSTACLES' type='string' description='Of streams: raise the terrain to what "
+      "stands on it, as this GeoJSON file says; needs MAX_ERROR'/>"
       "</CreationOptionList>";
   driver->SetMetadataItem(GDAL_DMD_CREATIONOPTIONLIST, creation_options.c_str());
   driver->pfnIdentify = microtin::gdal::identify;

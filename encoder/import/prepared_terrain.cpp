@@ -13,7 +13,6 @@
 #include "encoder/exact/fraction.hpp"
 #include "encoder/files/input.hpp"
 #include "encoder/import/area.hpp"
-#include "encoder/import/bound_map.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/mosaic.hpp"
 #include "encoder/import/obstacles.hpp"
@@ -311,17 +310,23 @@ void raise_to_obstacles(const Preparation& preparation, Source& source) {
 
 }  // namespace
 
-Source prepared_terrain(const std::string& path, const Preparation& preparation) {
-  Source source = without_bounds(path, preparation);
+void shape(Source& source, const Preparation& preparation, const BoundMap* map) {
   if (has_area(preparation)) {
     const Area area = area_of(preparation, terrain::reference_of(source));
     std::visit([&](auto& one) { area.cut(one); }, source);
   }
-  if (!preparation.error_map.empty()) {
-    const BoundMap map(preparation.error_map, preparation.max_error);
-    std::visit([&](auto& one) { map.bound(one); }, source);
+  if (map != nullptr) {
+    std::visit([&](auto& one) { map->bound(one); }, source);
+  } else if (!preparation.error_map.empty()) {
+    const BoundMap read(preparation.error_map, preparation.max_error);
+    std::visit([&](auto& one) { read.bound(one); }, source);
   }
   if (!preparation.obstacles.empty()) raise_to_obstacles(preparation, source);
+}
+
+Source prepared_terrain(const std::string& path, const Preparation& preparation) {
+  Source source = without_bounds(path, preparation);
+  shape(source, preparation);
   return source;
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "encoder/import/bound_map.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/degrees.hpp"
@@ -54,6 +55,11 @@ struct Preparation {
 // name. Throws
 // Error as preparing does.
 std::vector<std::string> files_of(const std::string& path, const Preparation& preparation);
+
+// Cuts a terrain to the area, gives its samples the bounds of the map, and raises it to the
+// obstacles, as the files of `preparation` say. `map` replaces its error map unless null. Throws
+// Error naming the file.
+void shape(Source& source, const Preparation& preparation, const BoundMap* map = nullptr);
 
 // Throws Error naming the file.
 Source prepared_terrain(const std::string& path, const Preparation& preparation);

@@ -11,8 +11,10 @@
 #include "encoder/base/text.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/import/bound_map.hpp"
+#include "encoder/import/breaklines.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
+#include "encoder/import/prepared_terrain.hpp"
 #include "encoder/import/reference.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
@@ -227,6 +229,8 @@ void check_pack_options(const Options& options, bool has_map) {
   expect_default("max_bytes", options.max_bytes == 0, "streams");
   expect(!options.never_below || has_map || !options.max_error.empty(),
          base::parameter("never_below") + " needs " + base::parameter("max_error"));
+  expect_default("breaklines", options.breaklines.empty(), "streams");
+  expect_default("obstacles", options.obstacles.empty(), "streams");
 }
 
 product::EncodeOptions options_of(const Options& options) {
@@ -248,7 +252,25 @@ product::EncodeOptions options_of(const Options& options) {
   all.digest = options.digest;
   all.phases = options.phases;
   all.notes = notes_of(options);
+  if (!options.breaklines.empty()) {
+    all.lattice.breaklines = importing::read_breaklines(options.breaklines);
+  }
+  if (!options.obstacles.empty()) product::imply_obstacles(all);
   return all;
+}
+
+importing::Preparation preparation_of(const Options& options) {
+  expect(options.route.empty() == options.route_width.empty(), base::parameter("route") + " and " +
+                                                                   base::parameter("route_width") +
+                                                                   " go together; set both");
+  importing::Preparation preparation;
+  preparation.max_error = decimal_of("max_error", options.max_error);
+  preparation.error_map = options.error_map;
+  preparation.area = options.area;
+  preparation.route = options.route;
+  preparation.route_width = decimal_of("route_width", options.route_width);
+  preparation.obstacles = options.obstacles;
+  return preparation;
 }
 
 terrain::Reference asked_of(const Options& options) {
@@ -262,26 +284,26 @@ terrain::Reference asked_of(const Options& options) {
   return asked;
 }
 
-// A terrain in the units that are asked for, with bounds of its own: a copy only where that changes
-// it.
+// A terrain in the units that are asked for, shaped by files: a copy only where that changes it.
 class SettledTerrain {
  public:
   SettledTerrain(const SourceTerrain::Content& content, const Options& options)
       : source_(*content.source),
         settled_(importing::settle(terrain::reference_of(source_), asked_of(options))) {
     const bool is_plain = importing::is_plain(settled_.conversion);
-    const bool has_map = !options.error_map.empty() || content.bounds != nullptr;
-    if (is_plain && !has_map) return;
+    const bool has_files = !options.error_map.empty() || !options.area.empty() ||
+                           !options.route.empty() || !options.obstacles.empty();
+    const bool has_own_map = content.bounds != nullptr && options.error_map.empty();
+    const importing::Preparation preparation = preparation_of(options);
+    if (is_plain && !has_files && !has_own_map) return;
     changed_ = source_;
     if (!is_plain) importing::convert(*changed_, settled_);
-    if (!has_map) return;
-    const auto max_error = decimal_of("max_error", options.max_error);
-    const auto map =
-        options.error_map.empty()
-            ? importing::BoundMap(base::parameter("error_map"),
-                                  std::make_unique<KeptRaster>(*content.bounds), max_error)
-            : importing::BoundMap(options.error_map, max_error);
-    std::visit([&](auto& one) { map.bound(one); }, *changed_);
+    std::optional<importing::BoundMap> map;
+    if (has_own_map) {
+      map.emplace(base::parameter("error_map"), std::make_unique<KeptRaster>(*content.bounds),
+                  preparation.max_error);
+    }
+    importing::shape(*changed_, preparation, map ? &*map : nullptr);
   }
 
   const terrain::Source& source() const { return changed_ ? *changed_ : source_; }
@@ -406,6 +428,12 @@ std::vector<std::string> warnings_on(const SettledTerrain& terrain) {
   if (const auto* const cloud = std::get_if<terrain::PointCloud>(&terrain.source())) {
     const std::string grid = terrain::warning_on_grid(*cloud);
     if (!grid.empty()) warnings.push_back(grid);
+    return warnings;
+  }
+  const auto elsewhere = std::get<terrain::Raster>(terrain.source()).mended.obstacles_elsewhere;
+  if (elsewhere != 0) {
+    warnings.push_back(base::parameter("obstacles") +
+                       ": touching no post with a height: " + std::to_string(elsewhere));
   }
   return warnings;
 }

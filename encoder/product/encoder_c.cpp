@@ -157,6 +157,11 @@ Options options_of(const microtin_options& given) {
   options.digest = given.digest != 0;
   options.phases = given.phases != 0;
   options.error_map = text_of(given.error_map);
+  options.area = text_of(given.area);
+  options.route = text_of(given.route);
+  options.route_width = text_of(given.route_width);
+  options.breaklines = text_of(given.breaklines);
+  options.obstacles = text_of(given.obstacles);
   options.max_vertices = given.max_vertices;
   options.max_bytes = given.max_bytes;
   options.tile_vertices = given.tile_vertices;

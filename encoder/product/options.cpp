@@ -54,6 +54,15 @@ EncodeOptions mapped(EncodeOptions options, const OwnBounds& bounds) {
   return options;
 }
 
+void imply_obstacles(EncodeOptions& options) {
+  if (!options.lattice.max_error) {
+    throw Error(parameter("obstacles") + " needs " + parameter("max_error"));
+  }
+  options.lattice.never_below = true;
+  options.lattice.bound_at = BoundScope::kEverywhere;
+  if (options.surface == SurfaceKind::kUnknown) options.surface = SurfaceKind::kObstacles;
+}
+
 void refuse_options_of_streams(const EncodeOptions& options) {
   if (!options.lattice.breaklines.empty()) {
     throw Error(parameter("breaklines") +

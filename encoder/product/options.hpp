@@ -53,6 +53,10 @@ Metadata noted(Metadata metadata, const EncodeOptions& options);
 // hold as they are, unless it is set. Throws Error if the options contradict.
 EncodeOptions mapped(EncodeOptions options, const OwnBounds& bounds);
 
+// Makes options those of a terrain that is raised to obstacles: nowhere below it, between posts,
+// too, and of their kind. Throws Error without a bound.
+void imply_obstacles(EncodeOptions& options);
+
 // Throws Error if an option is set that packs do not have.
 void refuse_options_of_streams(const EncodeOptions& options);
 

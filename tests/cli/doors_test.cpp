@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <list>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -128,14 +129,40 @@ std::vector<Row> rows_of_notes() {
   };
 }
 
-// A file with a tight bound for some posts and points.
-const char* bounds_path() {
+// The path of a GeoJSON file.
+const char* feature(const char* properties, const char* type, const char* coordinates) {
   static const Session session;
-  static const std::string path = session.folder() + "/bounds.geojson";
-  session.write("bounds.geojson",
-                R"({"type": "Feature", "properties": {"max_error": 0.25}, "geometry": {"type":
-"Polygon", "coordinates": [[[505, 705], [560, 705], [560, 750], [505, 750], [505, 705]]]}})");
-  return path.c_str();
+  static std::list<std::string> paths;
+  const std::string name = std::to_string(paths.size()) + ".geojson";
+  std::ostringstream text;
+  text << R"({"type": "Feature", "properties": {)" << properties << R"(}, "geometry": {"type": ")"
+       << type << R"(", "coordinates": )" << coordinates << "}}";
+  session.write(name, text.str());
+  return paths.emplace_back(session.folder() + "/" + name).c_str();
+}
+
+// Options that are files, with places over the raster and the points.
+std::vector<Row> rows_of_files() {
+  static const char* const square =
+      "[[[300, 300], [560, 300], [560, 750], [300, 750], [300, 300]]]";
+  static const char* const across = "[[30, 30], [540, 740]]";
+  static const char* const bounds = feature(R"("max_error": 0.25)", "Polygon", square);
+  static const char* const area = feature("", "Polygon", square);
+  static const char* const line = feature("", "LineString", across);
+  static const char* const tower = feature(R"("height": 30, "radius": 3)", "Point", "[530, 725]");
+  const Setting two = bound("2");
+  const Setting route = setting("--route", &W::route, &C::route, line) +
+                        setting("--route-width", &W::route_width, &C::route_width, "60");
+  return {
+      {"error_map", kAll, setting("--error-map", &W::error_map, &C::error_map, bounds), two},
+      {"area", kAll, setting("--area", &W::area, &C::area, area), two},
+      {"route", kAll, route, two},
+      {"route_width", kAll, route, two},
+      {"breaklines", kStream | kCloud,
+       setting("--breaklines", &W::breaklines, &C::breaklines, line), two},
+      {"obstacles", kStream, setting("--obstacles", &W::obstacles, &C::obstacles, tower),
+       bound("9")},
+  };
 }
 
 std::vector<Row> rows() {
@@ -155,7 +182,6 @@ std::vector<Row> rows() {
   };
   std::vector<Row> all = {
       {"max_error", kAll, bound("1.5"), nothing},
-      {"error_map", kAll, setting("--error-map", &W::error_map, &C::error_map, bounds_path()), two},
       {"z_step", kAll, setting("--z-step", &W::z_step, &C::z_step, "0.7"), two},
       {"xy_step", kStream | kClouds, setting("--xy-step", &W::xy_step, &C::xy_step, "0.5"),
        bound("40")},
@@ -186,8 +212,9 @@ std::vector<Row> rows() {
        setting("--tile-vertices", &W::tile_vertices, &C::tile_vertices, 20u), two},
       {"tile_size", kPack, setting("--tile-size", &W::tile_size, &C::tile_size, 9u), two},
   };
-  const std::vector<Row> notes = rows_of_notes();
-  all.insert(all.end(), notes.begin(), notes.end());
+  for (const std::vector<Row>& more : {rows_of_files(), rows_of_notes()}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
   return all;
 }
 

@@ -29,7 +29,7 @@ VOID = (ROW < 20) & (COLUMN > 300)
 NONE = -32768
 ROUNDING = 1e-9  # of differences of binary numbers
 BOUND = 0.5
-OF_STREAMS = ("MAX_VERTICES", "MAX_BYTES", "XY_STEP", "DIGEST", "PHASES", "BOUND_AT")
+OF_STREAMS = ("MAX_VERTICES", "MAX_BYTES", "XY_STEP", "DIGEST", "PHASES", "BOUND_AT", "BREAKLINES", "OBSTACLES")
 OF_PACKS = ("TILE_VERTICES", "TILE_SIZE")
 
 
@@ -97,14 +97,20 @@ class Driver(unittest.TestCase):
             self.assertEqual(dataset.GetRasterBand(1).GetUnitType(), "m")
             self.expect_hills(dataset)
 
+    def feature(self, kind, coordinates, **properties):
+        """The path of a GeoJSON file."""
+        path = self.path(f"{kind}{len(properties)}.geojson")
+        with open(path, "w") as file:
+            geometry = {"type": kind, "coordinates": coordinates}
+            json.dump({"type": "Feature", "properties": properties, "geometry": geometry}, file)
+        return path
+
     def error_maps(self):
         """Polygons, and a raster of coarser cells: its bounds are kept."""
-        polygons, raster = self.path("bounds.geojson"), self.path("bounds.tif")
+        raster = self.path("bounds.tif")
         west, north, side = 600000, 4999000, 700
         ring = [[west, north], [west + side, north], [west + side, north - side], [west, north]]
-        with open(polygons, "w") as file:
-            geometry = {"type": "Polygon", "coordinates": [ring]}
-            json.dump({"type": "Feature", "properties": {"max_error": 0.5}, "geometry": geometry}, file)
+        polygons = self.feature("Polygon", [ring], max_error=0.5)
         bounds = gdal.GetDriverByName("GTiff").Create(raster, 16, 15, 1, gdal.GDT_Float32)
         bounds.SetGeoTransform((west, 100, 0, north, 0, -100))
         bounds.GetRasterBand(1).WriteArray(numpy.where(numpy.mgrid[0:15, 0:16][1] < 5, 0.5, 3))
@@ -124,6 +130,11 @@ class Driver(unittest.TestCase):
 
     def test_each_creation_option_makes_a_difference(self):
         """Those that the driver lists, with a row for each of their values, alone and with a bound."""
+        west, north = 600000, 4999000
+        ring = [[west, north], [west + 900, north], [west + 900, north - 900], [west, north]]
+        square = self.feature("Polygon", [ring])
+        line = self.feature("LineString", [[west + 100, north - 100], [west + 1200, north - 1000]])
+        tower = self.feature("Point", [west + 500, north - 500], height=80)
         rows = {
             "MAX_ERROR": ["1"],
             "MAX_VERTICES": ["200"],
@@ -151,7 +162,13 @@ class Driver(unittest.TestCase):
             "PHASES": ["YES"],
             "ERROR_MAP": self.error_maps(),
             "BOUND_AT": ["EVERYWHERE"],
+            "AREA": [square],
+            "ROUTE": [line],
+            "ROUTE_WIDTH": ["500"],
+            "BREAKLINES": [line],
+            "OBSTACLES": [tower],
         }
+        together = {"ROUTE": {"ROUTE_WIDTH": "900"}, "ROUTE_WIDTH": {"ROUTE": line}}
         text = gdal.GetDriverByName("MTIN").GetMetadataItem("DMD_CREATIONOPTIONLIST")
         listed = xml.etree.ElementTree.fromstring(text).iter("Option")
         self.assertEqual({option.get("name") for option in listed}, set(rows))
@@ -172,7 +189,7 @@ class Driver(unittest.TestCase):
                     with self.assertRaisesRegex(RuntimeError, "is an option of|is for streams|packs"):
                         encoded(suffix, dict(base, **{name: values[0]}))
                     continue
-                others = {} if name in ("MAX_VERTICES", "MAX_BYTES") else base
+                others = {} if name in ("MAX_VERTICES", "MAX_BYTES") else dict(base, **together.get(name, {}))
                 made = [encoded(suffix, dict(others, **{name: value})) for value in values]
                 with self.subTest(suffix + " " + name):
                     self.assertEqual(len({without, *made}), 1 + len(made))

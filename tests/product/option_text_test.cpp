@@ -35,6 +35,11 @@ std::vector<Row> rows() {
   return {
       row("max_error", "2.5", &O::max_error, std::string("2.5")),
       row("error_map", words, &O::error_map, words),
+      row("area", words, &O::area, words),
+      row("route", words, &O::route, words),
+      row("route_width", "30", &O::route_width, std::string("30")),
+      row("breaklines", words, &O::breaklines, words),
+      row("obstacles", words, &O::obstacles, words),
       row("max_vertices", "4294967295", &O::max_vertices, UINT32_MAX),
       row("max_bytes", "0", &O::max_bytes, 0u),
       row("max_bytes", "77", &O::max_bytes, 77u),

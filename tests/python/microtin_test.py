@@ -158,7 +158,8 @@ class Options(unittest.TestCase):
         "max_bytes": ({"effort": "fast"}, "--fast", {900: "--max-bytes 900"}),
     }
     OF_PACKS = {"tile_vertices", "tile_size"}
-    ELSEWHERE = {"progress", "numbers", "error_map"}
+    FILES = {"area", "route", "route_width", "breaklines", "obstacles"}
+    ELSEWHERE = {"progress", "numbers", "error_map"} | FILES
 
     def points(self):
         """Of three decimals that 16 bits do not hold, some at the same place."""
@@ -213,6 +214,37 @@ class Options(unittest.TestCase):
         with self.assertRaisesRegex(microtin.Error, "points take the path"):
             microtin.encode_points(self.points(), error_map=bounds)
 
+    def test_files_shape_the_terrain(self):
+        heights = hills()
+        with tempfile.TemporaryDirectory() as folder:
+
+            def feature(kind, coordinates, properties="{}"):
+                path = os.path.join(folder, kind + ".geojson")
+                with open(path, "w") as file:
+                    file.write(f'{{"type": "Feature", "properties": {properties}, "geometry": ')
+                    file.write(f'{{"type": "{kind}", "coordinates": {coordinates}}}}}')
+                return path
+
+            square = feature("Polygon", "[[[2, 2], [20, 2], [20, 20], [2, 20], [2, 2]]]")
+            line = feature("LineString", "[[3, 3], [15, 12]]")
+            tower = feature("Point", "[10, 10]", '{"height": 50}')
+            inside, _ = microtin.decode(microtin.encode(heights, 2, area=square)).raster()
+            self.assertEqual((~numpy.isnan(inside)).sum(), 19 * 19)
+            near, _ = microtin.decode(microtin.encode(heights, 2, route=line, route_width=4)).raster()
+            self.assertTrue(0 < (~numpy.isnan(near)).sum() < 19 * 19)
+            plain = microtin.encode(heights, 2)
+            self.assertNotEqual(bytes(microtin.encode(heights, 2, breaklines=line)), bytes(plain))
+            raised = microtin.decode(microtin.encode(heights, 2, obstacles=tower))
+            self.assertGreaterEqual(raised.height_at([10], [10])[0], microtin.decode(plain).height_at([10], [10])[0] + 45)
+            with self.assertRaisesRegex(microtin.Error, "route and route_width go together"):
+                microtin.encode(heights, 2, route=line)
+            with self.assertRaisesRegex(microtin.Error, "obstacles needs max_error"):
+                microtin.encode(heights, obstacles=tower)
+            path = os.path.join(folder, "a.mtp")
+            for name, file in (("obstacles", tower), ("breaklines", line)):
+                with self.assertRaisesRegex(microtin.Error, f"{name} is an option of streams"):
+                    microtin.encode_pack(heights, path, 2, **{name: file})
+
     def test_each_keyword_of_packs_makes_a_difference(self):
         with tempfile.TemporaryDirectory() as folder:
             def pack(**options):
@@ -257,7 +289,7 @@ class Options(unittest.TestCase):
         keywords = set(inspect.signature(microtin._options).parameters) | numbers
         self.assertEqual(keywords - self.ELSEWHERE, known)
         in_c = {name for name, _ in microtin._library.Options._fields_}
-        self.assertEqual(in_c - {"size", "progress", "context"} | {"crs"}, known | {"horizontal_epsg", "error_map"})
+        self.assertEqual(in_c - {"size", "progress", "context"} | {"crs"}, known | {"horizontal_epsg", "error_map"} | self.FILES)
 
 
 class Packs(unittest.TestCase):

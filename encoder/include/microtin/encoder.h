@@ -118,9 +118,11 @@ typedef struct microtin_options {
   uint32_t depths;  /* 1: heights grow downwards, and are negated */
   uint32_t surface; /* MICROTIN_SURFACE_* */
   const char *attribution, *license, *valid;
-  const char *epoch, *source_accuracy; /* "2020.5"; "LE90 4" */
-  uint32_t digest, phases;             /* 1: note them, in a stream */
-  const char* error_map;               /* a file with a bound for each post or point */
+  const char *epoch, *source_accuracy;    /* "2020.5"; "LE90 4" */
+  uint32_t digest, phases;                /* 1: note them, in a stream */
+  const char* error_map;                  /* a file with a bound for each post or point */
+  const char *area, *route, *route_width; /* GeoJSON files; the width in metres */
+  const char *breaklines, *obstacles;     /* files, of streams */
 } microtin_options;
 
 /* What the encoder measured; see encoder::Report. Errors are decimals as text, "" if there is

@@ -162,6 +162,15 @@ struct Options {
    * replaces, or polygons with a property max_error (.geojson). Elsewhere max_error holds. With
    * max_vertices or max_bytes all bounds are scaled alike, as much as it takes. */
   std::string error_map;
+  /* Files in GeoJSON, in the system of the terrain. `area`: polygons; `route`: lines, with
+   * route_width metres, half on each side. What lies outside of both has no heights. */
+  std::string area, route, route_width;
+  /* Stream: a file of lines along which the surface has edges: GeoJSON, or text. Needs a bound. */
+  std::string breaklines;
+  /* Stream of a raster: a GeoJSON file of what stands on the terrain: points, lines and polygons
+   * with `top`, or `height` above the ground, and `radius`. The surface is below none of it, and
+   * nowhere below the terrain. Needs max_error; never_below and bound_at need not be set. */
+  std::string obstacles;
   uint32_t max_vertices = 0; /* stream: the smallest bound with 3 .. 2^24 vertices at most */
   uint32_t max_bytes = 0;    /* stream: the smallest bound whose file has at most this size */
   bool never_below = false;  /* with a bound: no post or point is above the surface */

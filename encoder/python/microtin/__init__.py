@@ -181,6 +181,11 @@ def encode(
     error_map gives each height a bound of its own: an array of the heights' shape, NaN for none, or the path of a raster of
     bounds or of polygons with a property max_error (.geojson). Elsewhere max_error holds. A limit scales all bounds.
 
+    Paths of GeoJSON files, in the system of the heights: area (polygons; other heights are void), route with
+    route_width=METRES (lines; heights far from them are void), and of streams with max_error: breaklines (lines that
+    become edges) and obstacles (what stands on the terrain, with `top` or `height` and `radius`; the surface is below
+    none of it).
+
     Without a bound and a limit every height is a vertex. Takes some 20 us a height, on all processors. Raises Error, also if
     an array is not two-dimensional or a height out of range.
     """
@@ -317,6 +322,11 @@ def _options(
     digest: bool = False,
     phases: bool = False,
     error_map: Optional[ErrorMap] = None,
+    area: Optional[Path] = None,
+    route: Optional[Path] = None,
+    route_width: Optional[Number] = None,
+    breaklines: Optional[Path] = None,
+    obstacles: Optional[Path] = None,
     **numbers: int,
 ) -> Tuple[_library.Options, _Caller]:
     chosen = (
@@ -360,6 +370,11 @@ def _options(
         digest=digest,
         phases=phases,
         error_map=os.fsencode(error_map) if isinstance(error_map, (str, bytes, os.PathLike)) else None,
+        area=_file(area),
+        route=_file(route),
+        route_width=_decimal(route_width),
+        breaklines=_file(breaklines),
+        obstacles=_file(obstacles),
         progress=caller.function,
         **numbers,
     )
@@ -404,6 +419,10 @@ def _decimal(number: Optional[Number]) -> Optional[bytes]:
     if number is None:
         return None
     return (repr(float(number)) if isinstance(number, (float, numpy.floating)) else str(number)).encode()
+
+
+def _file(path: Optional[Path]) -> Optional[bytes]:
+    return None if path is None else os.fsencode(path)
 
 
 def _epsg_of(crs: Optional[Crs]) -> Optional[int]:

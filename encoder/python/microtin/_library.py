@@ -83,6 +83,11 @@ class Options(_Sized):
         ("digest", c_uint32),
         ("phases", c_uint32),
         ("error_map", c_char_p),
+        ("area", c_char_p),
+        ("route", c_char_p),
+        ("route_width", c_char_p),
+        ("breaklines", c_char_p),
+        ("obstacles", c_char_p),
     ]
 
 
