@@ -259,6 +259,9 @@ void add_render(CLI::App& app, Action& action) {
       ->default_str("no contour lines");
   command.add_flag("--coordinates", request->coordinates,
                    "Draw ticks with numbers on the frame, at round coordinates");
+  add_number(command, "--first-bytes BYTES", request->first_bytes, 1u,
+             "Draw what a device has after the first bytes of a stream")
+      ->default_str("the whole stream");
   add_text(command, "--title WORDS", request->title,
            "Print this title above the map, in Latin letters, digits and common signs");
   command.add_flag("--north-arrow", request->north_arrow, "Draw a north arrow, which points up");

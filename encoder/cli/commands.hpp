@@ -139,7 +139,8 @@ struct RenderRequest {
   std::optional<Decimal> interval;  // of contours; a round one if not given
   std::string title;
   bool coordinates = false, north_arrow = false;
-  bool force = false;  // read a pack of more vertices than a stream can have
+  uint32_t first_bytes = 0;  // of a stream: draw what a decoder has after these; 0: all
+  bool force = false;        // read a pack of more vertices than a stream can have
 };
 
 void run_render(const RenderRequest& request);

@@ -65,6 +65,39 @@ void expect_picture(const RenderRequest& request) {
   if (request.world && suffix != ".png") {
     throw Error(request.output + ": only a .png file gets a world file; leave out --world-file");
   }
+  if (request.first_bytes != 0 && (suffix == kPage || !request.source.empty())) {
+    throw Error(request.output +
+                ": --first-bytes is for pictures without a map of errors; a page "
+                "shows phases; leave it out");
+  }
+}
+
+// The whole terrain, or what its first bytes make.
+Portrait portrait_of(const RenderRequest& request, const Document& document) {
+  const uint64_t most = most_vertices(request.input, document.counted_vertices(), request.force);
+  uint64_t vertices = document.vertices(), bytes = document.bytes();
+  Metadata metadata = document.metadata();
+  SurfaceModel model;
+  if (request.first_bytes != 0 && request.first_bytes < bytes) {
+    bytes = request.first_bytes;
+    model = document.model_after(bytes);
+    vertices = model.vertices.size();
+    metadata.accuracy.reset();  // that of the whole terrain
+  } else {
+    model = document.model(most);
+  }
+  return {std::move(model),
+          std::move(metadata),
+          vertices,
+          bytes,
+          document.tiles(),
+          request.mesh,
+          request.palette,
+          request.contours,
+          request.interval,
+          request.title,
+          request.coordinates,
+          request.north_arrow};
 }
 
 // The bytes of what was read: of a stream those that it was decoded from, as it may come by a pipe.
@@ -133,11 +166,7 @@ void run_render(const RenderRequest& request) {
   refuse_overwriting(inputs, request.output);
   expect_picture(request);
   const Document document(request.input);
-  const uint64_t most = most_vertices(request.input, document.counted_vertices(), request.force);
-  const Portrait portrait{document.model(most), document.metadata(), document.vertices(),
-                          document.bytes(),     document.tiles(),    request.mesh,
-                          request.palette,      request.contours,    request.interval,
-                          request.title,        request.coordinates, request.north_arrow};
+  const Portrait portrait = portrait_of(request, document);
   const std::string suffix = suffix_of(request.output);
   if (suffix == kPage) return write_page(request, document, portrait);
   if (suffix == kDrawing) return write_drawing(request, portrait);

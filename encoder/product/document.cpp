@@ -127,9 +127,21 @@ SurfaceModel Document::model(uint64_t most_vertices) const {
     throw Error(path_ + ": its tiles have " + std::to_string(vertices) + " vertices; more than " +
                 std::to_string(most_vertices) + " are not read at once: read tile by tile");
   }
-  SurfaceModel model = with_file_context(path_, [&] {
+  return with_units(with_file_context(path_, [&] {
     return pack() != nullptr ? model_of(*pack()) : model_of(stream()->terrain.mesh());
-  });
+  }));
+}
+
+SurfaceModel Document::model_after(uint64_t bytes) const {
+  if (pack() != nullptr) {
+    throw Error(path_ + ": is a pack, and " + parameter("first_bytes") +
+                " is for streams; leave it out");
+  }
+  return with_units(
+      with_file_context(path_, [&] { return stream::model_after(stream()->bytes, bytes); }));
+}
+
+SurfaceModel Document::with_units(SurfaceModel model) const {
   const Metadata notes = metadata();
   model.horizontal_unit = notes.horizontal_unit;
   model.vertical_unit = notes.vertical_unit;

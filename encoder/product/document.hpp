@@ -59,10 +59,15 @@ class Document {
   // together; each takes some 150 bytes.
   SurfaceModel model(uint64_t most_vertices = kMostVerticesAtOnce) const;
 
+  // With units: what a decoder has of a stream after its first bytes. Throws Error for a pack, too.
+  SurfaceModel model_after(uint64_t bytes) const;
+
   // The document must outlive it.
   SampledSurface sampled() const;
 
  private:
+  SurfaceModel with_units(SurfaceModel model) const;
+
   std::string path_;
   std::variant<PackFile, DecodedStream> content_;
 };

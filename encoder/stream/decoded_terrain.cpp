@@ -2,7 +2,9 @@
 // Gives the shipped decoder memory and a stream, and copies vertices and triangles out of a mesh.
 #include "encoder/stream/decoded_terrain.hpp"
 
+#include <algorithm>
 #include <string>
+#include <utility>
 
 #include "encoder/base/error.hpp"
 #include "encoder/stream/header.hpp"
@@ -26,6 +28,19 @@ size_t section_end(const std::vector<uint8_t>& stream, size_t at) {
   if (left < kCheckBytes || length > left - kCheckBytes) return stream.size();
   return stream.size() - static_cast<size_t>(left - kCheckBytes - length);
 }
+
+// A decoder and its mesh in memory of the size that a header states.
+struct StartedDecoder {
+  std::vector<uint64_t> mesh_memory, working;  // aligned to MICROTIN_ALIGNMENT
+  microtin_mesh* mesh = nullptr;
+  microtin_decoder* decoder = nullptr;
+
+  explicit StartedDecoder(const microtin_stream_info& info)
+      : mesh_memory((info.mesh_bytes + 7) / 8), working((info.decoder_bytes + 7) / 8) {
+    expect_done(microtin_mesh_init(mesh_memory.data(), mesh_memory.size() * 8, &mesh));
+    expect_done(microtin_decoder_init(working.data(), working.size() * 8, mesh, &decoder));
+  }
+};
 
 }  // namespace
 
@@ -63,11 +78,10 @@ void append_chunk(const BoundSpan& bounds, std::vector<uint8_t>& stream) {
 DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream, const SectionVisitor& visit) {
   const Header header = read_header(stream);
   expect_room_for_vertices(header.info, stream.size());
-  storage_.resize((header.info.mesh_bytes + 7) / 8);
-  std::vector<uint64_t> working((header.info.decoder_bytes + 7) / 8);
-  expect_done(microtin_mesh_init(storage_.data(), storage_.size() * 8, &mesh_));
-  microtin_decoder* decoder = nullptr;
-  expect_done(microtin_decoder_init(working.data(), working.size() * 8, mesh_, &decoder));
+  StartedDecoder started(header.info);
+  microtin_decoder* const decoder = started.decoder;
+  mesh_ = started.mesh;
+  storage_ = std::move(started.mesh_memory);
   size_t at = 0;
   microtin_status status = MICROTIN_STATUS_NEED_INPUT;
   for (size_t end = header.info.header_bytes; status == MICROTIN_STATUS_NEED_INPUT && at < end;
@@ -101,6 +115,18 @@ SurfaceModel model_of(const microtin_mesh* mesh) {
     }
   }
   return model;
+}
+
+SurfaceModel model_after(const std::vector<uint8_t>& stream, uint64_t bytes) {
+  const Header header = read_header(stream);
+  expect_room_for_vertices(header.info, stream.size());
+  const StartedDecoder started(header.info);
+  const auto size = static_cast<size_t>(std::min<uint64_t>(bytes, stream.size()));
+  size_t used = 0;
+  const microtin_status status =
+      microtin_decoder_feed(started.decoder, stream.data(), size, &used, 0);
+  if (status != MICROTIN_STATUS_NEED_INPUT) expect_done(status);
+  return model_of(started.mesh);
 }
 
 }  // namespace microtin::stream

@@ -207,6 +207,7 @@ const std::vector<OptionRow> kOptionRows = {
     {"render", "--contours", kRender, "5"},
     {"render", "--coordinates", kRender, ""},
     {"render", "--title", kRender, "Hills"},
+    {"render", "--first-bytes", kRender, "90"},
     {"render", "--north-arrow", kRender, ""},
     {"render", "--world-file", kRender, ""},
     {"render", "--source", kRender, "t.asc"},

@@ -249,6 +249,11 @@ TEST_CASE("cli: suffixes may be in capitals") {
   REQUIRE(made.run("render t.mtin -o U.SVG").code == 0);
   CHECK(contains(made.read("U.SVG"), "<svg"));
   CHECK(contains(made.failure("render t.mtin -o U.GIF"), "not a kind of picture"));
+  for (const char* words : {"t.mtin -o U.html", "t.mtin -o U.png --source t.asc"}) {
+    CHECK(contains(made.failure(joined({"render ", words, " --first-bytes 9"})), "leave it out"));
+  }
+  CHECK(contains(made.failure("render t.mtp -o U.png --first-bytes 9"), "is a pack"));
+  CHECK(contains(made.failure("render t.mtin -o U.png --first-bytes 9"), "nothing to draw"));
 }
 
 TEST_CASE("cli: other names of standard output are standard output" * kSlow) {

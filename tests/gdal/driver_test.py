@@ -5,6 +5,7 @@ import functools
 import http.server
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -172,6 +173,9 @@ class Driver(unittest.TestCase):
         text = gdal.GetDriverByName("MTIN").GetMetadataItem("DMD_CREATIONOPTIONLIST")
         listed = xml.etree.ElementTree.fromstring(text).iter("Option")
         self.assertEqual({option.get("name") for option in listed}, set(rows))
+        with open(os.path.join(os.path.dirname(__file__), "../../encoder/docs/gdal-qgis.md")) as page:
+            line = next(line for line in page if line.startswith("| creation options |"))
+        self.assertEqual(set(re.findall("`([A-Z_]+)`", line)), set(rows))
         small = self.path("small.tif")
         gdal.Translate(small, self.path("hills.tif"), srcWin=[0, 100, 160, 150])
 

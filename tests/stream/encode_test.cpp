@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <string>
 
@@ -62,6 +63,15 @@ constexpr Effort kEfforts[] = {{6, Coding::kQuick},
                                {12, Coding::kDense},
                                {32, Coding::kBalanced}};
 
+// Triangles as the places of their corners.
+std::set<std::set<std::array<int64_t, 3>>> triangles_in(const SurfaceModel& model) {
+  std::set<std::set<std::array<int64_t, 3>>> all;
+  for (const auto& [a, b, c] : model.triangles) {
+    all.insert({model.vertices[a], model.vertices[b], model.vertices[c]});
+  }
+  return all;
+}
+
 bool equals_definition(const Points& points, const TriangleSet& set) {
   return reference_delaunay(points) == set;
 }
@@ -109,6 +119,34 @@ TEST_CASE("round trip: every cell of whole lattices") {
       CHECK(round_trip_fault(tin_of(points, random), {8, Coding::kDense}, is_reference_delaunay) ==
             "");
     }
+  }
+}
+
+TEST_CASE("the first bytes of a stream make its first vertices, in their own triangulation") {
+  Random random(5);
+  for (const PointSet& set : point_sets(120, 5)) {
+    CAPTURE(set.name);
+    const Tin tin = tin_of(set.points, random);
+    const Bytes stream = encode(tin, Metadata());
+    const SurfaceModel whole = model_of(DecodedTerrain(stream).mesh());
+    CHECK(triangles_in(model_after(stream, stream.size())) == triangles_in(whole));
+    size_t vertices = 0;
+    for (size_t bytes = 1; bytes < stream.size(); bytes += stream.size() / 5) {
+      const SurfaceModel part = model_after(stream, bytes);
+      REQUIRE(part.vertices.size() <= whole.vertices.size());
+      CHECK(std::equal(part.vertices.begin(), part.vertices.end(), whole.vertices.begin()));
+      CHECK(part.vertices.size() >= vertices);
+      vertices = part.vertices.size();
+      if (part.triangles.empty()) continue;  // the first ones may lie on one line
+      Tin first;
+      for (const auto& [x, y, z] : part.vertices) {
+        first.vertices.push_back(
+            {static_cast<uint16_t>(x), static_cast<uint16_t>(y), static_cast<int16_t>(z)});
+      }
+      const SurfaceModel alone = model_of(DecodedTerrain(encode(first, Metadata())).mesh());
+      CHECK(triangles_in(part) == triangles_in(alone));
+    }
+    CHECK(vertices > 3);
   }
 }
 
