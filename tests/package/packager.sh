@@ -26,6 +26,11 @@ expect 'microtin::microtin' $exports
 reject '/include"' $exports
 reject 'libz\.a' "$folder/build.ninja"
 reject '-Werror' "$folder/build.ninja"
+# Each installed file belongs to a component.
+for component in tool library development licences qgis; do
+  expect "CMAKE_INSTALL_COMPONENT STREQUAL \"$component\"" --include=cmake_install.cmake "$folder"
+done
+reject 'CMAKE_INSTALL_COMPONENT STREQUAL "Unspecified"' --include=cmake_install.cmake "$folder"
 expect 'lib[^"]*/mdalplugins' "$folder/encoder/qgis/cmake_install.cmake"
 [ $gdal = OFF ] || expect 'lib[^"]*/gdalplugins' "$folder/encoder/gdal/cmake_install.cmake"
 
