@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Builds every preset and runs its tests: the release with gcc; all again with clang, clang-tidy and sanitizers; the fuzz
-# targets for a short while. At the same time as clang runs what seldom keeps two processors busy: the devices,
-# analyzers, some planted faults and other sanitizers; then the proof on Debian 13. Prints what it skips and why, and
-# when each part began.
+# all.sh [change|nightly]: every check of the repository, or those that each change must pass, or only the others.
+# change: the release with gcc and all tests; the host again with clang, clang-tidy and sanitizers, and its quick tests; at
+# the same time, since they seldom keep two processors busy, the devices and analyzers; the fuzz targets for a short while.
+# nightly: the slow tests under sanitizers, other sanitizers, some planted faults, and the proof on Debian 13.
+# Prints what it skips and why, and when each part began.
 set -eu
 cd "$(dirname "$0")/.."
 export CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL-$(nproc)}"
@@ -36,28 +37,60 @@ beside() {
   tests/devices.sh
   part analyzers
   tests/analyse.sh || [ $? -eq 77 ] # skipped
-  part planted faults
-  fuzz/mutate cavity_bound certified no_conflict staged_bytes tie_break
+}
+
+build_sanitized() {
+  cmake --preset sanitize
+  cmake --build --preset sanitize
+}
+
+change() {
+  part release
+  cmake --workflow --preset release
+
+  log=build/beside.log
+  beside >$log 2>&1 &
+  beside=$!
+  trap 'kill $beside 2>/dev/null || true' EXIT
+  part clang, clang-tidy and sanitizers
+  if have clang++ clang-tidy; then
+    build_sanitized
+    ctest --preset sanitize -L quick
+  fi
+  failed=0
+  wait $beside || failed=$?
+  trap - EXIT
+  cat $log
+  [ $failed -eq 0 ] || exit $failed
+
+  part fuzz targets
+  if have clang++; then cmake --workflow --preset fuzz; fi
+}
+
+nightly() {
+  part slow tests under sanitizers
+  if have clang++ clang-tidy; then
+    build_sanitized
+    ctest --preset sanitize -LE quick
+  fi
   part strict sanitizers
   if have clang++; then fuzz/strict; fi
+  part planted faults
+  cmake --preset release
+  cmake --build --preset release
+  fuzz/mutate cavity_bound certified no_conflict staged_bytes tie_break
   part Debian 13
   debian_13
 }
 
-part release
-cmake --workflow --preset release
-
-log=build/beside.log
-beside >$log 2>&1 &
-beside=$!
-trap 'kill $beside 2>/dev/null || true' EXIT
-part clang, clang-tidy and sanitizers
-if have clang++ clang-tidy; then cmake --workflow --preset sanitize; fi
-failed=0
-wait $beside || failed=$?
-trap - EXIT
-cat $log
-[ $failed -eq 0 ] || exit $failed
-
-part fuzz targets
-if have clang++; then cmake --workflow --preset fuzz; fi
+case ${1-} in
+  change | nightly) $1 ;;
+  '')
+    change
+    nightly
+    ;;
+  *)
+    echo "usage: all.sh [change|nightly]" >&2
+    exit 2
+    ;;
+esac
