@@ -28,7 +28,7 @@ found() { # TEXT...: check fails, and prints each text
 }
 
 c=encoder/include/microtin/encoder.h
-at_end='s|^  const char\* error_map; .*|&\n  double another;|'
+at_end='s|^} microtin_options;|  double another;\n&|'
 
 copy
 plant decoder/include/microtin/segment.h '/^typedef struct microtin_path {/,/^}/s|int32_t|int64_t|'
