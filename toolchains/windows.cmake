@@ -20,16 +20,5 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 
-# CLI11 and stb are headers of the host. A folder of their own keeps its other headers away.
-set(MICROTIN_HOST_INCLUDE /usr/include CACHE PATH "The folder that has the headers of CLI11 and stb")
-if(NOT CMAKE_SOURCE_DIR MATCHES "CMakeFiles")  # not where CMake tries a compiler
-  set(headers ${CMAKE_BINARY_DIR}/headers)
-  file(MAKE_DIRECTORY ${headers})
-  foreach(name CLI stb)
-    file(CREATE_LINK ${MICROTIN_HOST_INCLUDE}/${name} ${headers}/${name} SYMBOLIC)
-  endforeach()
-  file(WRITE ${headers}/CLI11Config.cmake "add_library(CLI11::CLI11 INTERFACE IMPORTED)
-set_target_properties(CLI11::CLI11 PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ${headers})\n")
-  set(CLI11_DIR ${headers} CACHE PATH "")
-  set(STB_INCLUDE_DIR ${headers} CACHE PATH "")
-endif()
+set(MICROTIN_HOST_HEADERS CLI stb)
+include(${CMAKE_CURRENT_LIST_DIR}/host_headers.cmake)
