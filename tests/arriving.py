@@ -100,7 +100,7 @@ def main():
         grid, stream, frame = (Path(folder, name) for name in ("terrain.asc", "terrain.mtin", "frame.png"))
 
         def run(*words):
-            subprocess.run([program, *map(str, words)], check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([program, *map(str, words)], check=True)
 
         run("fractal", "--size", 321, "--seed", 9, "-o", grid)
         run("encode", grid, "--units", "metre", "--max-error", 12, "-o", stream)

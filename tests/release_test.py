@@ -15,11 +15,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 ARTEFACTS = ROOT / ".ci/artefacts"
 VERSION = "7.8.9"
+CONTROL = ".ci/debian/control"
 HEADER = "decoder/include/microtin/microtin.h"
 STREAM, PACK = "shared/docs/format-stream.md", "shared/docs/format-pack.md"
 COPIED = (".ci/release", ".ci/artefacts", "CMakeLists.txt", "CHANGELOG.md", "CITATION.cff", "LICENSE", "README.md",
           "decoder/packages", "pyproject.toml", "setup.py", STREAM, PACK, "shared/format.hpp", "shared/pack_format.hpp",
-          HEADER)  # fmt: skip
+          HEADER, CONTROL)  # fmt: skip
 GIT = {"GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_NOSYSTEM": "1"} | {
     f"GIT_{who}_{what}": "test@microtin.example" for who in ("AUTHOR", "COMMITTER") for what in ("NAME", "EMAIL")
 }
@@ -65,6 +66,7 @@ def ready(folder):
     (folder / "README.md").write_text("".join(line for line in readme if "not frozen" not in line))
     script = (folder / "CMakeLists.txt").read_text()
     (folder / "CMakeLists.txt").write_text(script.replace("microtin.example", "microtin.test"))
+    replace(folder / CONTROL, "microtin@example.org", "microtin@microtin.test")
     (folder / ".gitignore").write_text("build/\n")
     run("git", "init", "-q", folder=folder)
     commit(folder)
@@ -162,6 +164,8 @@ class Refusals(unittest.TestCase):
     def test_an_address_that_is_a_placeholder(self):
         self.refused(lambda folder: replace(folder / "CMakeLists.txt", "microtin.test", "microtin.example"),
                      "HOMEPAGE_URL is a placeholder, .*; write")  # fmt: skip
+        self.refused(lambda folder: replace(folder / CONTROL, "microtin@microtin.test", "microtin@example.org"),
+                     f"{CONTROL}: the address of the Maintainer is a placeholder; write")  # fmt: skip
 
     def test_files_that_are_there(self):
         def plant(folder):

@@ -9,6 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+CONTROL = ".ci/debian/control"
 HEADER = "decoder/include/microtin/microtin.h"
 # Files in which ecosystems look for a version. A version written there must be the header's.
 MANIFESTS = re.compile(
@@ -101,6 +102,8 @@ def project_url(root=Path(".")):
 def address(version):
     if ".example" in project_url():
         yield f"CMakeLists.txt: HOMEPAGE_URL is a placeholder, {project_url()}; write the project's address"
+    if "@example." in Path(CONTROL).read_text():
+        yield f"{CONTROL}: the address of the Maintainer is a placeholder; write one that people can reach"
 
 
 CHECKS = (tree, versions, changelog, format_versions, frozen, address)

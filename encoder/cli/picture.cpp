@@ -67,8 +67,7 @@ void expect_picture(const RenderRequest& request) {
   }
   if (request.first_bytes != 0 && (suffix == kPage || !request.source.empty())) {
     throw Error(request.output +
-                ": --first-bytes is for pictures without a map of errors; a page "
-                "shows phases; leave it out");
+                ": --first-bytes is for .png and .svg files without a map of errors; leave it out");
   }
 }
 
@@ -78,11 +77,11 @@ Portrait portrait_of(const RenderRequest& request, const Document& document) {
   uint64_t vertices = document.vertices(), bytes = document.bytes();
   Metadata metadata = document.metadata();
   SurfaceModel model;
-  if (request.first_bytes != 0 && request.first_bytes < bytes) {
-    bytes = request.first_bytes;
+  if (request.first_bytes != 0) {
+    bytes = std::min<uint64_t>(request.first_bytes, bytes);
     model = document.model_after(bytes);
     vertices = model.vertices.size();
-    metadata.accuracy.reset();  // that of the whole terrain
+    if (bytes < document.bytes()) metadata.accuracy.reset();  // that of the whole terrain
   } else {
     model = document.model(most);
   }

@@ -74,8 +74,8 @@ struct SurfaceModel {
 // Vertices keep their numbers.
 SurfaceModel model_of(const microtin_mesh* mesh);
 
-// What a decoder has of a stream after its first bytes, also between two checks. Throws Error as
-// decoding does.
+// What a decoder has made of the first bytes of a stream. The last of them need not be covered by a
+// checksum yet. Throws Error as decoding does.
 SurfaceModel model_after(const std::vector<uint8_t>& stream, uint64_t bytes);
 
 }  // namespace microtin::stream

@@ -252,7 +252,10 @@ TEST_CASE("cli: suffixes may be in capitals") {
   for (const char* words : {"t.mtin -o U.html", "t.mtin -o U.png --source t.asc"}) {
     CHECK(contains(made.failure(joined({"render ", words, " --first-bytes 9"})), "leave it out"));
   }
-  CHECK(contains(made.failure("render t.mtp -o U.png --first-bytes 9"), "is a pack"));
+  for (const char* bytes : {"9", "99999999"}) {
+    CHECK(contains(made.failure(joined({"render t.mtp -o U.png --first-bytes ", bytes})),
+                   "is a pack"));
+  }
   CHECK(contains(made.failure("render t.mtin -o U.png --first-bytes 9"), "nothing to draw"));
 }
 
