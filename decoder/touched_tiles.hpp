@@ -63,8 +63,9 @@ class TouchedTiles {
     at_end_ = !columns_.holds(column_) || !rows_.holds(row_) || side() != Side::kOn;
     // The next row's boxes begin at most one column before any that is met in this one, but on a
     // segment along the border between the two.
-    const bool is_level = segment_.y == segment_.y_end || column_ == columns_.from;
-    first_ = is_level ? columns_.from : columns_.before(column_);
+    // Nothing is before a column that the segment does not reach; the walk is over then.
+    const bool is_first = segment_.y == segment_.y_end || column_ == columns_.from || at_end_;
+    first_ = is_first ? columns_.from : columns_.before(column_);
     is_met_ = true;
     return !at_end_;
   }
