@@ -28,6 +28,7 @@
 #include "encoder/terrain/clouds.hpp"
 #include "encoder/terrain/raster_scan.hpp"
 #include "encoder/terrain/voids.hpp"
+#include "encoder/verify/everywhere_bound.hpp"
 
 namespace microtin::cli {
 namespace {
@@ -177,7 +178,8 @@ std::string stream_report(const Source& source, const EncodedStream& encoded,
   return text.str();
 }
 
-std::string pack_report(const PackReport& pack) {
+// `is_bound`: the bound was to hold between posts, too.
+std::string pack_report(const PackReport& pack, bool is_bound = false) {
   std::ostringstream text;
   text.exceptions(std::ios::badbit);  // else a text for which memory is short ends early, unsaid
   text << "step of z: " << to_string(pack.z_step) << "\npack: " << tile_columns(pack.grid) << " x "
@@ -188,7 +190,7 @@ std::string pack_report(const PackReport& pack) {
        << pack.bytes << " bytes\nerror: at most " << to_string(pack.measured.max_error) << ", rms "
        << to_string(pack.measured.rms_error) << ", mean " << to_string(pack.measured.mean_error);
   if (pack.bound && !pack.bounds) text << " (asked for: at most " << to_string(*pack.bound) << ")";
-  text << '\n' << own_bounds(pack.bounds) << beyond(pack.measured, pack.everywhere, false);
+  text << '\n' << own_bounds(pack.bounds) << beyond(pack.measured, pack.everywhere, is_bound);
   return text.str();
 }
 
@@ -240,8 +242,8 @@ std::string encode_raster(const RasterReader& raster, const EncodeRequest& reque
   write_pack(pack, streams, out);
   const Raster& frame = raster.frame();
   return source_of_posts(scanned.posts, scanned.voids, scanned.mended, frame.selection) +
-         pack_report(report_of(pack)) + settings(report_of(pack), request.adapter) +
-         units(request, frame.reference);
+         pack_report(report_of(pack), is_bound_everywhere(request.lattice)) +
+         settings(report_of(pack), request.adapter) + units(request, frame.reference);
 }
 
 std::string encode_points(const PointCloud& cloud, const EncodeRequest& request, OutputFile& out) {

@@ -280,6 +280,7 @@ void add_update(CLI::App& app, Action& action) {
   add_output(command, request->output, "Write this pack (.mtp); - is standard output");
   add_terrain(command, request->input, request->preparation);
   add_error_map(command, request->preparation, "elsewhere the pack's bound holds");
+  add_obstacles(command, request->preparation);
   add_number(command, "--tile-vertices N", request->tile_vertices, kFewestTileVertices,
              "Let new tiles have at most N vertices each", uint32_t{kMaxVertices})
       ->default_str("as many as the pack states");

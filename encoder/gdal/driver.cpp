@@ -40,8 +40,8 @@ void GDALRegister_MTIN() {
       "of this size allows'/>"
       "<Option name='NEVER_BELOW' type='boolean' description='With a bound: no height is below the "
       "source'/>"
-      "<Option name='BOUND_AT' type='string-select' default='POINTS' description='Of streams: "
-      "whether the bound holds at the posts or everywhere between them'>"
+      "<Option name='BOUND_AT' type='string-select' default='POINTS' description='Whether "
+      "the bound holds at the posts or everywhere between them'>"
       "<Value>POINTS</Value><Value>EVERYWHERE</Value></Option>"
       "<Option name='Z_STEP' type='string' description='Step of heights'/>"
       "<Option name='XY_STEP' type='string' description='Of streams: step of positions, in posts'/>"
@@ -88,7 +88,7 @@ void GDALRegister_MTIN() {
       "side'/>"
       "<Option name='BREAKLINES' type='string' description='Of streams: a file of lines along "
       "which the surface has edges'/>"
-      "<Option name='OBSTACLES' type='string' description='Of streams: raise the terrain to what "
+      "<Option name='OBSTACLES' type='string' description='Raise the terrain to what "
       "stands on it, as this GeoJSON file says; needs MAX_ERROR'/>"
       "</CreationOptionList>";
   driver->SetMetadataItem(GDAL_DMD_CREATIONOPTIONLIST, creation_options.c_str());

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "encoder/base/error.hpp"
@@ -133,94 +134,149 @@ int64_t number_of(Decimal height, int decimals) {
   return static_cast<int64_t>(number);
 }
 
-// Raises the posts of cells, and remembers which.
+// Posts that obstacles raise, by number, each with its height.
+using RaisedPosts = std::vector<std::pair<std::size_t, int64_t>>;
+
+// Finds the posts that obstacles raise, and how high. Reads what they touch alone.
 class Raising {
  public:
-  explicit Raising(Raster& raster) : raster_(raster), ground_(raster.heights) {}
+  explicit Raising(const RasterReader& ground) : ground_(ground), frame_(ground.frame()) {}
 
   // Whether a post of the obstacle's cells has a height.
   bool add(const Feature& obstacle) {
     bool is_there = false;
-    for (const Part& part : parts_of(obstacle, raster_)) {
-      if (part.is_level) {
-        is_there = raise(obstacle, part.cells.data(), part.cells.size()) || is_there;
-      } else {
-        for (const std::size_t& cell : part.cells) {
-          is_there = raise(obstacle, &cell, 1) || is_there;
-        }
-      }
+    for (const Part& part : parts_of(obstacle, frame_)) {
+      is_there =
+          (part.is_level ? raise_alike(obstacle, part.cells) : raise_each(obstacle, part.cells)) ||
+          is_there;
     }
     return is_there;
   }
 
-  const std::vector<std::size_t>& raised() const { return raised_; }
+  RaisedPosts take() { return {heights_.begin(), heights_.end()}; }
 
  private:
+  // The ground of a part of an obstacle, in rectangles of few rows: calls visit(cell, posts, ground
+  // of posts) with those posts of each cell that have heights.
   template <class Visit>
-  void visit_posts(const std::size_t* cells, std::size_t count, const Visit& visit) const {
-    const std::size_t width = raster_.width;
-    for (std::size_t i = 0; i < count; ++i) {
-      for (const std::size_t post :
-           {cells[i], cells[i] + 1, cells[i] + width, cells[i] + width + 1}) {
-        if (terrain::is_height(ground_[post])) visit(post);
+  void visit_cells(const std::vector<std::size_t>& cells, const Visit& visit) const {
+    constexpr std::size_t kRows = 64;
+    const std::size_t width = frame_.width;
+    for (std::size_t i = 0, end; i < cells.size(); i = end) {
+      const std::size_t row = cells[i] / width;
+      std::size_t west = width, east = 0;
+      for (end = i; end < cells.size() && cells[end] / width < row + kRows; ++end) {
+        west = std::min(west, cells[end] % width);
+        east = std::max(east, cells[end] % width + 1);
       }
+      const std::size_t rows = cells[end - 1] / width - row + 2;
+      const Raster part =
+          ground_.read({static_cast<uint32_t>(west), static_cast<uint32_t>(row),
+                        static_cast<uint32_t>(east - west + 1), static_cast<uint32_t>(rows)});
+      for (std::size_t k = i; k < end; ++k) visit(posts_of(cells[k], part, west, row));
     }
   }
 
-  bool raise(const Feature& obstacle, const std::size_t* cells, std::size_t count) {
+  // The posts of a cell that have heights, with these.
+  RaisedPosts posts_of(std::size_t cell, const Raster& part, std::size_t west,
+                       std::size_t south) const {
+    const std::size_t width = frame_.width;
+    RaisedPosts posts;
+    for (const std::size_t post : {cell, cell + 1, cell + width, cell + width + 1}) {
+      const int64_t height =
+          part.heights[(post / width - south) * part.width + (post % width - west)];
+      if (terrain::is_height(height)) posts.emplace_back(post, height);
+    }
+    return posts;
+  }
+
+  static std::optional<int64_t> highest_of(const RaisedPosts& posts) {
     std::optional<int64_t> highest;
-    visit_posts(cells, count, [&](std::size_t post) {
-      highest = std::max(highest.value_or(ground_[post]), ground_[post]);
+    for (const auto& [post, height] : posts) highest = std::max(highest.value_or(height), height);
+    return highest;
+  }
+
+  int64_t top_of(const Feature& obstacle, int64_t highest) const {
+    return obstacle.top ? number_of(*obstacle.top, frame_.decimals)
+                        : highest + number_of(*obstacle.height, frame_.decimals);
+  }
+
+  bool raise_each(const Feature& obstacle, const std::vector<std::size_t>& cells) {
+    bool is_there = false;
+    visit_cells(cells, [&](const RaisedPosts& posts) {
+      const std::optional<int64_t> highest = highest_of(posts);
+      if (!highest) return;
+      is_there = true;
+      raise(posts, top_of(obstacle, *highest));
+    });
+    return is_there;
+  }
+
+  bool raise_alike(const Feature& obstacle, const std::vector<std::size_t>& cells) {
+    std::optional<int64_t> highest;
+    visit_cells(cells, [&](const RaisedPosts& posts) {
+      if (const auto here = highest_of(posts)) highest = std::max(highest.value_or(*here), *here);
     });
     if (!highest) return false;
-    const int64_t top = obstacle.top ? number_of(*obstacle.top, raster_.decimals)
-                                     : *highest + number_of(*obstacle.height, raster_.decimals);
-    visit_posts(cells, count, [&](std::size_t post) {
-      if (raster_.heights[post] >= top) return;
-      raster_.heights[post] = top;
-      raised_.push_back(post);
-    });
+    const int64_t top = top_of(obstacle, *highest);
+    visit_cells(cells, [&](const RaisedPosts& posts) { raise(posts, top); });
     return true;
   }
 
-  Raster& raster_;
-  const std::vector<int64_t> ground_;
-  std::vector<std::size_t> raised_;  // some more than once
+  void raise(const RaisedPosts& posts, int64_t top) {
+    for (const auto& [post, ground] : posts) {
+      if (ground >= top) continue;
+      int64_t& height = heights_.emplace(post, top).first->second;
+      height = std::max(height, top);
+    }
+  }
+
+  const RasterReader& ground_;
+  const Raster& frame_;
+  std::map<std::size_t, int64_t> heights_;
 };
 
 // The surface may fall to the bound in this many posts around raised ones, so that few vertices
-// make its slope.
+// make its slope. It may be at their height at all posts of the cells that they are in: of a cell
+// with three raised posts, two triangles can leave out the middle.
 constexpr int64_t kSlopePosts = 3;
+constexpr int64_t slope_at(int64_t away) {
+  return std::min(kSlopePosts - away, kSlopePosts - 1);  // of kSlopePosts - 1
+}
+
+// What the bounds of a raised raster have in common.
+terrain::OwnBounds raised_frame(const Raster& frame, const Decimal& max_error) {
+  terrain::OwnBounds bounds = terrain::frame_of(frame.bounds);
+  if (!bounds.unscaled) bounds = {{}, max_error.decimals, max_error};
+  bounds.decimals = std::max(bounds.decimals, frame.decimals);
+  return bounds;
+}
 
 // Wider bounds around raised posts: from their height to the bound along both axes.
 class Slopes {
  public:
-  Slopes(const Raster& raster, const std::optional<Decimal>& max_error)
-      : raster_(raster), bounds_(raster.bounds) {
-    if (bounds_.empty()) {
-      bounds_ = {{}, max_error->decimals, *max_error};
-      bounds_.numbers.assign(raster.heights.size(), max_error->mantissa);
-    }
-    const int decimals = std::max(bounds_.decimals, raster.decimals);
-    own_ = exact::power_of_ten(decimals - bounds_.decimals);
-    of_heights_ = exact::power_of_ten(decimals - raster.decimals);
-    bounds_.decimals = decimals;
-    above_.resize(raster.heights.size());
+  Slopes(const Raster& raster, const Decimal& max_error)
+      : raster_(raster), bounds_(raised_frame(raster, max_error)), above_(raster.heights.size()) {
+    const bool has_own = !raster.bounds.empty();
+    const int decimals = has_own ? raster.bounds.decimals : max_error.decimals;
+    own_ = exact::power_of_ten(bounds_.decimals - decimals);
+    of_heights_ = exact::power_of_ten(bounds_.decimals - raster.decimals);
+    bounds_.numbers = raster.bounds.numbers;
+    if (!has_own) bounds_.numbers.assign(raster.heights.size(), max_error.mantissa);
   }
 
-  void add(std::size_t raised) {
+  // A raised post, which may lie beside the raster.
+  void add(int64_t column, int64_t row, int64_t height) {
     const auto width = static_cast<int64_t>(raster_.width);
-    const int64_t column = static_cast<int64_t>(raised) % width,
-                  row = static_cast<int64_t>(raised) / width;
-    const auto weight = [](int64_t away) { return kSlopePosts - std::abs(away); };
     for (int64_t dy = 1 - kSlopePosts; dy < kSlopePosts; ++dy) {
       for (int64_t dx = 1 - kSlopePosts; dx < kSlopePosts; ++dx) {
         const int64_t x = column + dx, y = row + dy;
         if (x < 0 || y < 0 || x >= width || y >= raster_.height) continue;
         const auto post = static_cast<std::size_t>(y * width + x);
         if (!terrain::is_height(raster_.heights[post])) continue;
-        const Wide rise = Wide{raster_.heights[raised]} - raster_.heights[post];
-        const Wide part = ceil_divide(rise * (weight(dx) * weight(dy)), kSlopePosts * kSlopePosts);
+        const Wide rise = Wide{height} - raster_.heights[post];
+        const Wide part = ceil_divide(rise * (slope_at(std::abs(dx)) * slope_at(std::abs(dy))),
+                                      slope_at(0) * slope_at(0));
         above_[post] = std::max(above_[post], static_cast<int64_t>(std::max<Wide>(part, 0)));
       }
     }
@@ -244,6 +300,64 @@ class Slopes {
   std::vector<int64_t> above_;  // how far the surface may be above a post's bound
 };
 
+class RaisedRaster : public RasterReader {
+ public:
+  RaisedRaster(std::unique_ptr<RasterReader> ground, const std::vector<Feature>& obstacles,
+               const std::string& path, const Decimal& max_error)
+      : ground_(std::move(ground)), path_(path), max_error_(max_error) {
+    frame_ = ground_->frame();
+    with_file_context(path_, [&] {
+      Raising raising(*ground_);
+      for (const Feature& obstacle : obstacles) {
+        ++(raising.add(obstacle) ? frame_.mended.obstacles : frame_.mended.obstacles_elsewhere);
+      }
+      raised_ = raising.take();
+    });
+    frame_.bounds = raised_frame(frame_, max_error_);
+  }
+
+  Raster read(const terrain::PostRectangle& r) const override {
+    Raster part = ground_->read(r);
+    visit_raised(r, 0, [&](std::size_t column, std::size_t row, int64_t height) {
+      part.heights[(row - r.y) * r.width + (column - r.x)] = height;
+    });
+    part.bounds = with_file_context(path_, [&] {
+      Slopes slopes(part, max_error_);
+      visit_raised(r, kSlopePosts - 1, [&](std::size_t column, std::size_t row, int64_t height) {
+        slopes.add(static_cast<int64_t>(column) - r.x, static_cast<int64_t>(row) - r.y, height);
+      });
+      return slopes.take();
+    });
+    return part;
+  }
+
+  std::vector<bool> absent_in(const terrain::PostRectangle& r) const override {
+    return ground_->absent_in(r);
+  }
+
+ private:
+  // The raised posts in a rectangle and those within `reach` of it.
+  template <class Visit>
+  void visit_raised(const terrain::PostRectangle& r, uint32_t reach, const Visit& visit) const {
+    const std::size_t width = frame_.width, west = r.x - std::min(r.x, reach),
+                      east = std::min<std::size_t>(std::size_t{r.x} + r.width + reach, width),
+                      north =
+                          std::min<std::size_t>(std::size_t{r.y} + r.height + reach, frame_.height);
+    for (std::size_t row = r.y - std::min(r.y, reach); row < north; ++row) {
+      auto post = std::lower_bound(raised_.begin(), raised_.end(),
+                                   std::pair(row * width + west, INT64_MIN));
+      for (; post != raised_.end() && post->first < row * width + east; ++post) {
+        visit(post->first % width, row, post->second);
+      }
+    }
+  }
+
+  std::unique_ptr<RasterReader> ground_;
+  std::string path_;
+  Decimal max_error_;
+  RaisedPosts raised_;
+};
+
 }  // namespace
 
 Obstacles::Obstacles(const std::string& path)
@@ -257,19 +371,13 @@ Obstacles::Obstacles(const std::string& path)
   }
 }
 
-void Obstacles::raise(Raster& raster, const std::optional<Decimal>& max_error) const {
-  if (terrain::is_sparse(raster)) {
+std::unique_ptr<RasterReader> Obstacles::raised(std::unique_ptr<RasterReader> ground,
+                                                const std::optional<Decimal>& max_error) const {
+  if (terrain::is_sparse(ground->frame())) {
     throw Error(path_ + ": obstacles are for rasters with a post at every place");
   }
   if (!max_error) throw Error(path_ + ": obstacles need " + parameter("max_error"));
-  Raising raising(raster);
-  for (const Feature& obstacle : features_) {
-    const bool is_there = with_file_context(path_, [&] { return raising.add(obstacle); });
-    ++(is_there ? raster.mended.obstacles : raster.mended.obstacles_elsewhere);
-  }
-  Slopes slopes(raster, max_error);
-  for (const std::size_t post : raising.raised()) slopes.add(post);
-  raster.bounds = with_file_context(path_, [&] { return slopes.take(); });
+  return std::make_unique<RaisedRaster>(std::move(ground), features_, path_, *max_error);
 }
 
 }  // namespace microtin::importing

@@ -3,7 +3,7 @@
 #ifndef MICROTIN_ENCODER_IMPORT_OBSTACLES_HPP
 #define MICROTIN_ENCODER_IMPORT_OBSTACLES_HPP
 
-#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@
 #include "encoder/exact/decimal.hpp"
 #include "encoder/import/geojson.hpp"
 #include "encoder/layers.hpp"
-#include "encoder/terrain/source.hpp"
+#include "encoder/terrain/raster_reader.hpp"
 
 namespace microtin::importing {
 
@@ -21,11 +21,13 @@ class Obstacles {
   // heights, or a `height` above the ground, and a `radius` in metres. Throws Error naming it.
   explicit Obstacles(const std::string& path);
 
-  // Raises all posts of each cell that an obstacle touches to its top at least; void posts stay
-  // void. `max_error` is the bound of posts that have none of their own. Posts near raised ones get
-  // wider bounds. Throws Error naming the file. O(obstacles x posts that they touch), but at least
-  // O(obstacles x rows).
-  void raise(terrain::Raster& raster, const std::optional<Decimal>& max_error) const;
+  // A raster whose posts are raised when it is read: all those of each cell that an obstacle
+  // touches to its top at least; void posts stay void. `max_error` is the bound of posts that have
+  // none of their own. Posts near raised ones get wider bounds. The frame counts the obstacles.
+  // Reads the posts that obstacles touch, once or twice. Throws Error naming the file. Takes
+  // O(posts that are raised) of memory.
+  std::unique_ptr<terrain::RasterReader> raised(std::unique_ptr<terrain::RasterReader> ground,
+                                                const std::optional<Decimal>& max_error) const;
 
  private:
   std::string path_;

@@ -299,13 +299,24 @@ Area area_of(const Preparation& preparation, const Reference& reference) {
   return area;
 }
 
-void raise_to_obstacles(const Preparation& preparation, Source& source) {
+[[noreturn]] void refuse_obstacles_of_points(const Preparation& preparation) {
+  throw Error(preparation.obstacles + ": " + parameter("obstacles") +
+              " is for rasters, and these are points");
+}
+
+void raise_to_obstacles(Source& source, const Preparation& preparation) {
   auto* const raster = std::get_if<Raster>(&source);
-  if (raster == nullptr) {
-    throw Error(preparation.obstacles + ": " + parameter("obstacles") +
-                " is for rasters, and these are points");
-  }
-  Obstacles(preparation.obstacles).raise(*raster, preparation.max_error);
+  if (raster == nullptr) refuse_obstacles_of_points(preparation);
+  const std::string selection = raster->selection;
+  Mended mended = raster->mended;
+  const auto raised =
+      Obstacles(preparation.obstacles)
+          .raised(std::make_unique<RasterInMemory>(std::move(*raster)), preparation.max_error);
+  const Raster& frame = raised->frame();
+  *raster = raised->read({0, 0, frame.width, frame.height});
+  raster->selection = selection;
+  mended.add(frame.mended);
+  raster->mended = mended;
 }
 
 }  // namespace
@@ -321,7 +332,7 @@ void shape(Source& source, const Preparation& preparation, const BoundMap* map) 
     const BoundMap read(preparation.error_map, preparation.max_error);
     std::visit([&](auto& one) { read.bound(one); }, source);
   }
-  if (!preparation.obstacles.empty()) raise_to_obstacles(preparation, source);
+  if (!preparation.obstacles.empty()) raise_to_obstacles(source, preparation);
 }
 
 Source prepared_terrain(const std::string& path, const Preparation& preparation) {
@@ -342,16 +353,7 @@ void cut_to_area(OpenSource& source, const Preparation& preparation) {
   }
 }
 
-}  // namespace
-
-OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
-  if (!preparation.obstacles.empty()) {
-    throw Error(preparation.obstacles + ": " + parameter("obstacles") +
-                " is for streams, and this is a pack");
-  }
-  OpenSource source = prepared(path, parts_of(path, preparation), preparation);
-  if (has_area(preparation)) cut_to_area(source, preparation);
-  if (preparation.error_map.empty()) return source;
+void add_bounds(OpenSource& source, const Preparation& preparation) {
   auto map = std::make_shared<const BoundMap>(preparation.error_map, preparation.max_error);
   if (auto* const cloud = std::get_if<PointCloud>(&source)) {
     map->bound(*cloud);
@@ -359,6 +361,21 @@ OpenSource prepared_source(const std::string& path, const Preparation& preparati
     auto& raster = std::get<std::unique_ptr<RasterReader>>(source);
     raster = with_bounds(std::move(raster), std::move(map));
   }
+}
+
+void raise_to_obstacles(OpenSource& source, const Preparation& preparation) {
+  auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
+  if (raster == nullptr) refuse_obstacles_of_points(preparation);
+  *raster = Obstacles(preparation.obstacles).raised(std::move(*raster), preparation.max_error);
+}
+
+}  // namespace
+
+OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
+  OpenSource source = prepared(path, parts_of(path, preparation), preparation);
+  if (has_area(preparation)) cut_to_area(source, preparation);
+  if (!preparation.error_map.empty()) add_bounds(source, preparation);
+  if (!preparation.obstacles.empty()) raise_to_obstacles(source, preparation);
   return source;
 }
 

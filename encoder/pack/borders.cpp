@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "encoder/exact/wide.hpp"
+#include "encoder/pack/border_strip.hpp"
 #include "encoder/pack/kept_tiles.hpp"
 #include "encoder/pack/sparse_line.hpp"
 
@@ -260,6 +262,11 @@ std::vector<ChainVertex> simplify_line(const std::vector<LinePost>& posts, Error
 
 // Reads a tile with the posts next to it, and finds the vertices of its four borders.
 
+TileBox around(const TileGrid& grid, const TileBox& box, uint32_t reach_x, uint32_t reach_y) {
+  return {box.x - std::min(box.x, reach_x), box.y - std::min(box.y, reach_y),
+          std::min(box.x_end + reach_x, grid.x_max), std::min(box.y_end + reach_y, grid.y_max)};
+}
+
 namespace {
 
 // The tiles in one direction that hold a coordinate.
@@ -297,12 +304,6 @@ std::vector<Border> borders_of(const TileGrid& grid, uint32_t tile) {
   return borders;
 }
 
-// A box with what is next to it, as far as the grid goes.
-TileBox around(const TileGrid& grid, const TileBox& box, uint32_t reach_x, uint32_t reach_y) {
-  return {box.x - std::min(box.x, reach_x), box.y - std::min(box.y, reach_y),
-          std::min(box.x_end + reach_x, grid.x_max), std::min(box.y_end + reach_y, grid.y_max)};
-}
-
 // A box and the posts around it on which aims depend.
 TileBox with_ground(const TiledRaster& tiled, const TileBox& box) {
   const Raster& frame = tiled.raster.frame();
@@ -311,10 +312,6 @@ TileBox with_ground(const TiledRaster& tiled, const TileBox& box) {
 }
 
 constexpr uint32_t kVertexPrice = 2;  // more expensive ones make ridges of noisy borders
-
-uint32_t places_of(const TileBox& line) {
-  return (line.x_end - line.x) + (line.y_end - line.y) + 1;
-}
 
 uint32_t place_on_line(const Sample& sample) {
   return uint32_t{sample.place.x} + sample.place.y;
@@ -387,11 +384,15 @@ bool TilePosts::is_beside_void(uint32_t x, uint32_t y) const {
   return false;
 }
 
-Survey survey_of(const TiledRaster& tiled, const Raster& part) {
+Survey survey_of(const TiledRaster& tiled, const Raster& part, const LatticeOptions& options) {
   Lattice lattice = tiled.lattice;
   lattice.placement.x = part.x;
   lattice.placement.y = part.y;
-  return lay_out(part, lattice, tiled.options).survey;
+  return lay_out(part, lattice, options).survey;
+}
+
+Survey survey_of(const TiledRaster& tiled, const Raster& part) {
+  return survey_of(tiled, part, first_fit(tiled.options));
 }
 
 std::vector<uint32_t> tiles_at(const TileGrid& grid, GlobalPost post) {
@@ -418,13 +419,24 @@ void pin_corners(const KeptTiles& kept, const TileBox& line, std::vector<LinePos
   }
 }
 
+// A chain with which tiles can keep the bound of the options.
+std::vector<ChainVertex> simplify_border(const TiledRaster& tiled, const TilePosts& posts,
+                                         const TileBox& line, std::vector<LinePost>& on_line) {
+  const ErrorModel model{tiled.options.max_error.has_value()};
+  std::optional<BorderStrip> strip;
+  if (is_bound_everywhere(tiled.options)) strip.emplace(tiled, posts, line).pin_ends(on_line);
+  if (tiled.kept != nullptr) pin_corners(*tiled.kept, line, on_line);
+  for (;;) {  // ends: each time more posts are vertices
+    std::vector<ChainVertex> chain = simplify_line(on_line, model, kVertexPrice);
+    if (!strip || !strip->pin_missed(chain, on_line)) return chain;
+  }
+}
+
 // The vertices on a border of a tile, by place in the tile.
 SharedVertices chain_of(const TiledRaster& tiled, const TilePosts& posts, const TileBox& line) {
   std::vector<LinePost> on_line = posts_of_line(tiled, posts, line);
-  if (tiled.kept != nullptr) pin_corners(*tiled.kept, line, on_line);
-  const ErrorModel model{tiled.options.max_error.has_value()};
   SharedVertices vertices;
-  for (const ChainVertex& vertex : simplify_line(on_line, model, kVertexPrice)) {
+  for (const ChainVertex& vertex : simplify_border(tiled, posts, line, on_line)) {
     const GlobalPost post = post_of(line, place_on_line(*on_line[vertex.post].sample));
     vertices[{static_cast<uint16_t>(post.x - posts.box().x),
               static_cast<uint16_t>(post.y - posts.box().y)}] = vertex.height;

@@ -105,8 +105,18 @@ class TilePosts {
   Raster posts_;
 };
 
-// The survey of a part of the raster; places count from the part's first post.
+// The survey of a part of the raster, within the first fit's bound or by other options; places
+// count from the part's first post.
 Survey survey_of(const TiledRaster& tiled, const Raster& part);
+Survey survey_of(const TiledRaster& tiled, const Raster& part, const LatticeOptions& options);
+
+// A box with what is next to it, as far as the grid goes.
+TileBox around(const TileGrid& grid, const TileBox& box, uint32_t reach_x, uint32_t reach_y);
+
+// The places of a line, which is a box of one column or row.
+inline uint32_t places_of(const TileBox& line) {
+  return (line.x_end - line.x) + (line.y_end - line.y) + 1;
+}
 
 inline std::size_t tile_count(const TileGrid& grid) {
   return std::size_t{tile_columns(grid)} * tile_rows(grid);

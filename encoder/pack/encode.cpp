@@ -15,6 +15,7 @@
 #include "encoder/pack/kept_tiles.hpp"
 #include "encoder/pack/tile_plan.hpp"
 #include "encoder/stream/encode.hpp"
+#include "encoder/verify/everywhere_bound.hpp"
 
 namespace microtin::pack {
 namespace {
@@ -63,7 +64,7 @@ Decimal choose_z_step(const Raster& part, Decimal least, const LatticeOptions& l
 // Chooses the heights' lattice for all tiles.
 TiledRaster tiled_raster(const RasterReader& raster, const RasterScan& scanned,
                          const PackOptions& options, const Progress& progress) {
-  LatticeOptions lattice = options.lattice;
+  LatticeOptions lattice = first_fit(options.lattice), kept = options.lattice;
   const Raster& frame = raster.frame();
   if (options.simplify.bounded && !lattice.z_step && !scanned.has_exact_posts) {
     try {
@@ -71,12 +72,13 @@ TiledRaster tiled_raster(const RasterReader& raster, const RasterScan& scanned,
       simplify.progress = progress;
       lattice.z_step =
           choose_z_step(raster.read(scanned.roughest), *scanned.least_bound, lattice, simplify);
-      return {raster, choose_post_lattice(frame, scanned.heights, lattice), lattice, {}};
+      kept.z_step = lattice.z_step;
+      return {raster, choose_post_lattice(frame, scanned.heights, lattice), kept, {}};
     } catch (const Error&) {  // too little terrain there, or too fine for the whole
       lattice.z_step.reset();
     }
   }
-  return {raster, choose_post_lattice(frame, scanned.heights, lattice), lattice, {}};
+  return {raster, choose_post_lattice(frame, scanned.heights, lattice), kept, {}};
 }
 
 // Puts tiles that are encoded in any order into that of their numbers.
@@ -115,6 +117,7 @@ bool fits(const TileSummary& tile, uint32_t most) {
 PackPlan plan_pack(const RasterReader& raster, const PackOptions& options) {
   if (raster.frame().width < 2 || raster.frame().height < 2)
     throw Error("a pack needs two posts in each direction");
+  if (is_bound_everywhere(options.lattice)) expect_equal_distances(raster.frame());
   const Progress& progress = options.simplify.progress;
   const bool chooses_z_step = options.simplify.bounded && !options.lattice.z_step;
   const RasterScan scanned =

@@ -8,6 +8,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/terrain/exact_query.hpp"
 #include "encoder/verify/everywhere.hpp"
+#include "encoder/verify/everywhere_bound.hpp"
 #include "encoder/verify/water_gauge.hpp"
 
 namespace microtin::pack {
@@ -56,6 +57,12 @@ bool states_bounds(const std::optional<BoundSpan>& stated, const std::optional<B
          found->ratio <= stated->ratio;
 }
 
+// Whether a tile keeps the bound between posts, if it is to hold there.
+bool keeps_everywhere(const LatticeOptions& options, const microtin_mesh* mesh, const Raster& part,
+                      const Placement& lattice) {
+  return !is_bound_everywhere(options) || EverywhereBound(part, options, lattice).see(mesh) == 0;
+}
+
 // Without a bound every post is a vertex, at the nearest step.
 Decimal bound_of(const TiledRaster& tiled) {
   if (tiled.options.max_error) return *tiled.options.max_error;
@@ -93,6 +100,7 @@ KeptTiles::Tile KeptTiles::examined(uint32_t number) const {
   Tile tile;
   tile.border = border_of(decoded->mesh(), sides);
   tile.is_kept = keeps_options(changed_.options, found, gauge.moved()) &&
+                 keeps_everywhere(changed_.options, decoded->mesh(), part, lattice) &&
                  parts_voids(posts, sides, tile.border) &&
                  states_bounds(decoded->bounds(), found.bounds) &&
                  is_within(stated, margins_of(measure_gap(decoded->mesh(), lattice, part)));

@@ -12,6 +12,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/files/file_access.hpp"
 #include "encoder/stream/header.hpp"
+#include "encoder/verify/everywhere_bound.hpp"
 
 namespace microtin::pack {
 namespace {
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 
 using Bytes = std::vector<uint8_t>;
 
-constexpr uint8_t kShardMagic[5] = {'m', 't', 's', 'h', 4};  // and version
+constexpr uint8_t kShardMagic[5] = {'m', 't', 's', 'h', 5};  // and version
 constexpr std::size_t kStartBytes = sizeof kShardMagic + 4, kRangeBytes = 8;
 constexpr uint32_t kMostHeadBytes = 1 << 17;
 constexpr uint32_t kNotMade = 0xFFFFFFFF;  // a tile without terrain
@@ -37,6 +38,7 @@ Bytes write_identity(const PackPlan& plan, const PackContent& pack) {
   append_number(identity, options.simplify.effort.degree, 1);
   append_number(identity, static_cast<uint64_t>(options.simplify.effort.coding), 1);
   append_number(identity, options.lattice.never_below ? 1 : 0, 1);
+  append_number(identity, is_bound_everywhere(options.lattice) ? 1 : 0, 1);
   append_number(identity, plan.fingerprint, 8);
   return identity;
 }

@@ -16,19 +16,42 @@
 
 namespace microtin::pack {
 
+// A step from a side of a tile into it.
+struct Inwards {
+  int x, y;
+};
+
 // Which places of a tile others have, too.
 class TileSides {
  public:
   TileSides(const TileGrid& grid, const TileBox& box)
       : box_(box), x_max_(grid.x_max), y_max_(grid.y_max) {}
 
-  bool shares(Point p) const {
+  bool shares(Point p) const { return is_within(p, 0); }
+
+  // From the sides that a place lies on and that other tiles have, too.
+  std::vector<Inwards> inwards(Point p) const {
     const uint32_t x = box_.x + p.x, y = box_.y + p.y;
-    return (x == box_.x && x != 0) || (x == box_.x_end && x != x_max_) || (y == box_.y && y != 0) ||
-           (y == box_.y_end && y != y_max_);
+    std::vector<Inwards> all;
+    if (x == box_.x && x != 0) all.push_back({1, 0});
+    if (x == box_.x_end && x != x_max_) all.push_back({-1, 0});
+    if (y == box_.y && y != 0) all.push_back({0, 1});
+    if (y == box_.y_end && y != y_max_) all.push_back({0, -1});
+    return all;
   }
 
+  // Whether it is one step from such a place, or is one.
+  bool is_beside(Point p) const { return is_within(p, 1); }
+
  private:
+  bool is_within(Point p, uint32_t reach) const {
+    const uint32_t x = box_.x + p.x, y = box_.y + p.y;
+    return (x <= box_.x + reach && box_.x != 0) ||
+           (x + reach >= box_.x_end && box_.x_end != x_max_) ||
+           (y <= box_.y + reach && box_.y != 0) ||
+           (y + reach >= box_.y_end && box_.y_end != y_max_);
+  }
+
   TileBox box_;
   uint32_t x_max_, y_max_;
 };

@@ -53,6 +53,7 @@ PackOptions raster_options(const EncodeOptions& options, const Progress& progres
 }
 
 PackOptions point_options(const EncodeOptions& options) {
+  refuse_everywhere_of_points(options);
   if (options.tile_size != 0) {
     throw Error(parameter("tile_size") + " is for rasters, and these are points; leave it out");
   }

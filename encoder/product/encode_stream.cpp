@@ -102,10 +102,6 @@ struct Lessons {
   std::optional<EverywhereBound> everywhere;
 };
 
-bool is_kept_everywhere(const EncodeOptions& options) {
-  return options.lattice.bound_at == BoundScope::kEverywhere && options.lattice.max_error;
-}
-
 // Measures a raster between its posts, and narrows limits if the bound is to be kept there.
 void measure_between_posts(const Raster& raster, const microtin_mesh* mesh, bool is_kept,
                            Metadata& metadata, Lessons& lessons, Attempt& attempt) {
@@ -200,7 +196,7 @@ Attempt assess(const Source& source, const EncodeOptions& options, Lessons& less
     measure_true_places(std::get<PointCloud>(kept), decoded.mesh(), is_kept, lattice, result);
   }
   if (const auto* const raster = std::get_if<Raster>(&source)) {
-    const bool is_kept = is_kept_everywhere(options) && miss == Miss::kNarrows;
+    const bool is_kept = is_bound_everywhere(options.lattice) && miss == Miss::kNarrows;
     measure_between_posts(*raster, decoded.mesh(), is_kept, metadata, lessons, result);
   }
   note_accuracy(encoded, options, miss, metadata);
@@ -264,45 +260,21 @@ void refuse_scaling(const Source& source, const EncodeOptions& options) {
   }
 }
 
-// Two triangles with the heights of a bent cell's posts are on one side of it: a bound on both
-// sides is larger than a quarter of what it bends, one on one side may have to be twice as large.
-[[noreturn]] void refuse_everywhere(const Attempt& last, const Raster& raster,
-                                    const EncodeOptions& options) {
-  const Bend bend = most_bent(raster);
-  const LatticeOptions& lattice = options.lattice;
-  const Wide quarter = Wide{bend.by.mantissa} * 25, parts = lattice.never_below ? 2 : 1;
-  const Decimal enough = make_decimal(quarter * parts, bend.by.decimals + 2);
-  throw Error(parameter("max_error") + ' ' + to_string(*lattice.max_error) +
-              " cannot be kept everywhere: it is missed around " + std::to_string(last.missed) +
-              " posts. The cell from x " + CoordinateText(raster.x)(bend.column) + ", y " +
-              CoordinateText(raster.y)(bend.row) + " bends by " + to_string(bend.by) +
-              " between its posts; use " +
-              (*lattice.max_error <= enough ? "more than " + to_string(enough) : "a larger one") +
-              ", or " + parameter("bound_at") + " points");
-}
-
-// Between posts a surface is farther off. On mountains and fractals, one fitted within this part of
-// the bound takes the fewest bytes once that is mended.
-Decimal part_for_posts(Decimal bound) {
-  constexpr int kHundredths = 85, kDecimals = 2;
-  if (bound.decimals + kDecimals > kMaxDecimals) return bound;
-  return make_decimal(Wide{bound.mantissa} * kHundredths, bound.decimals + kDecimals);
-}
-
 // Fits a raster, and adds vertices wherever the bound is missed between its posts, until none are
 // missing or the cells bend too much. A search among the narrower limits would undo that.
 EncodedStream encode_everywhere(const Source& source, const EncodeOptions& options,
                                 const Progress& progress) {
   constexpr int kMostAttempts = 12;
   Lessons lessons{options.lattice, std::nullopt};
-  LatticeOptions fitted = options.lattice;
-  fitted.max_error = part_for_posts(*fitted.max_error);
-  Approximation found = approximate(source, fitted, simplify_options(options, progress));
+  Approximation found =
+      approximate(source, first_fit(options.lattice), simplify_options(options, progress));
   for (int attempts = 1;; ++attempts) {
     const Tin tin = found.tin;
     Attempt made = assess(source, options, lessons, std::move(found), Miss::kNarrows);
     if (made.missed == 0) return std::move(made.encoded);
-    if (attempts == kMostAttempts) refuse_everywhere(made, std::get<Raster>(source), options);
+    if (attempts == kMostAttempts) {
+      refuse_everywhere(std::get<Raster>(source), options.lattice, made.missed);
+    }
     Laid laid = lay_out(source, lessons.lattice);
     Tin more = mended(laid.survey, tin);
     found = {std::move(laid), std::move(more)};
@@ -350,7 +322,7 @@ Decimal error_where_bound(const EncodedStream& encoded, BoundScope bound_at) {
 
 EncodedStream encode_measured(const Source& source, const EncodeOptions& options,
                               const Progress& progress) {
-  if (is_kept_everywhere(options)) return encode_everywhere(source, options, progress);
+  if (is_bound_everywhere(options.lattice)) return encode_everywhere(source, options, progress);
   Attempt made = attempt_some(source, options, options.lattice.max_error, progress);
   if (made.missed == 0) return std::move(made.encoded);
   std::optional<Attempt> narrow = attempt_narrowly(source, options, made, progress);
@@ -372,11 +344,7 @@ EncodedStream encode_stream(const Source& source, const EncodeOptions& asked,
   if (!options.resume.empty()) {
     throw Error(parameter("resume") + " is for packs, and this is a stream; leave it out");
   }
-  if (options.lattice.bound_at == BoundScope::kEverywhere &&
-      std::holds_alternative<PointCloud>(source)) {
-    throw Error(parameter("bound_at") +
-                " everywhere is for rasters, and these are points; leave it out");
-  }
+  if (std::holds_alternative<PointCloud>(source)) refuse_everywhere_of_points(options);
   if (options.lattice.bound_at == BoundScope::kEverywhere && !options.lattice.breaklines.empty()) {
     throw Error(parameter("breaklines") + " and " + parameter("bound_at") +
                 " everywhere do not go together; leave one of them out");

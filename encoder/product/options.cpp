@@ -63,15 +63,16 @@ void imply_obstacles(EncodeOptions& options) {
   if (options.surface == SurfaceKind::kUnknown) options.surface = SurfaceKind::kObstacles;
 }
 
+void refuse_everywhere_of_points(const EncodeOptions& options) {
+  if (options.lattice.bound_at != BoundScope::kEverywhere) return;
+  throw Error(parameter("bound_at") +
+              " everywhere is for rasters, and these are points; leave it out");
+}
+
 void refuse_options_of_streams(const EncodeOptions& options) {
   if (!options.lattice.breaklines.empty()) {
     throw Error(parameter("breaklines") +
                 " is for streams; make a stream (.mtin), or leave it out");
-  }
-  if (options.lattice.bound_at == BoundScope::kEverywhere) {
-    throw Error(parameter("bound_at") +
-                " everywhere is for streams; the safe heights of a pack include what lies between "
-                "posts, so leave it out or make a stream (.mtin)");
   }
   if (options.max_vertices != 0 || options.max_bytes != 0) {
     throw Error(parameter("max_vertices") + " and " + parameter("max_bytes") +

@@ -57,6 +57,9 @@ EncodeOptions mapped(EncodeOptions options, const OwnBounds& bounds);
 // too, and of their kind. Throws Error without a bound.
 void imply_obstacles(EncodeOptions& options);
 
+// Throws Error if the bound is to hold between posts, and there are none.
+void refuse_everywhere_of_points(const EncodeOptions& options);
+
 // Throws Error if an option is set that packs do not have.
 void refuse_options_of_streams(const EncodeOptions& options);
 

@@ -12,6 +12,8 @@
 #include "encoder/product/open_pack.hpp"
 #include "encoder/stream/header.hpp"
 #include "encoder/terrain/raster_scan.hpp"
+#include "encoder/verify/everywhere.hpp"
+#include "encoder/verify/everywhere_bound.hpp"
 
 namespace microtin::product {
 namespace {
@@ -53,12 +55,25 @@ void expect_same_map(const Metadata& old, const Raster& frame) {
                         ", or encode the terrain again");
 }
 
+// Whether the bound holds between posts, too, as far as a pack shows: over obstacles it does, and
+// where no margin is larger.
+bool is_kept_everywhere(const PackFile& pack) {
+  const Metadata& stated = pack.metadata();
+  if (stated.bounds) return stated.surface == SurfaceKind::kObstacles;
+  const Margins margins{pack.header().below, pack.header().above};
+  const std::optional<Distances> everywhere = stated_everywhere(margins, stated.placement.z);
+  const std::optional<Decimal>& bound = stated.accuracy->bound;
+  return everywhere && bound && everywhere->below <= *bound && everywhere->above <= *bound;
+}
+
 // What the pack states of its tiles.
-LatticeOptions options_of(const Metadata& stated) {
+LatticeOptions options_of(const PackFile& pack) {
+  const Metadata& stated = pack.metadata();
   LatticeOptions options;
   options.max_error = stated.bounds ? stated.bounds->max_error : stated.accuracy->bound;
   options.never_below = stated.side == BoundSide::kNeverBelow;
   options.water_level = stated.water_level;
+  if (is_kept_everywhere(pack)) options.bound_at = BoundScope::kEverywhere;
   return options;
 }
 
@@ -79,7 +94,7 @@ Effort effort_of(const PackFile& pack, Effort effort) {
 PackOptions pack_options(const PackFile& old, const EncodeOptions& asked) {
   refuse_options_of_streams(asked);
   EncodeOptions options = asked;
-  options.lattice = options_of(old.metadata());
+  options.lattice = options_of(old);
   options.effort = effort_of(old, asked.effort);
   const uint32_t vertices =
       std::max(kFewestTileVertices,
@@ -108,8 +123,8 @@ Error too_large(const TileTooLarge& tile, const PackFile& old) {
 
 PackPlan plan_of(const PackFile& old, const RasterReader& raster, const PackOptions& options,
                  const RasterScan& scanned) {
-  const Lattice lattice =
-      post_lattice_at(raster.frame(), scanned.heights, old.metadata().placement.z, options.lattice);
+  const Lattice lattice = post_lattice_at(raster.frame(), scanned.heights,
+                                          old.metadata().placement.z, first_fit(options.lattice));
   return {{raster, lattice, options.lattice, old.grid()},
           options,
           old.grid().width,

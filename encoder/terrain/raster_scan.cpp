@@ -144,6 +144,7 @@ RasterScan scan(const RasterReader& raster, const std::optional<Decimal>& max_er
     done.add_one();
   });
   RasterScan all;
+  all.mended = frame.mended;
   std::size_t roughest = 0;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     all.posts += blocks[i].posts;

@@ -26,6 +26,22 @@ struct Bend {
 };
 Bend most_bent(const Raster& raster);
 
+inline bool is_bound_everywhere(const LatticeOptions& options) {
+  return options.bound_at == BoundScope::kEverywhere && options.max_error;
+}
+
+// The options within which a surface is fitted at posts first, so that few places between them are
+// missed: those given, if their bound is one for posts alone.
+LatticeOptions first_fit(const LatticeOptions& options);
+
+// Throws Error if the posts of a raster are not at equal distances: between others there is no
+// bilinear surface.
+void expect_equal_distances(const Raster& raster);
+
+// Throws the Error that a bound cannot be kept around so many posts.
+[[noreturn]] void refuse_everywhere(const Raster& raster, const LatticeOptions& options,
+                                    uint64_t missed);
+
 // Narrows the limits of posts around the places that a surface misses, from attempt to attempt:
 // first by what is missed and a little more; where that was in vain, the posts become vertices,
 // with limits that leave room for what a cell bends between its posts. A cell whose four posts are
@@ -44,8 +60,10 @@ class EverywhereBound {
   // Those that all surfaces seen ask for, in the order of places.
   std::vector<Tightening> tightenings() const;
 
+  // Those of a post that becomes a vertex; one height if a cell around it bends too much.
+  Tightening vertex_limits(std::size_t post) const;
+
  private:
-  Tightening sure_limits(std::size_t post) const;
   void narrow(std::size_t post, int32_t here, Excess excess);
 
   const Raster& raster_;

@@ -160,7 +160,7 @@ std::vector<Row> rows_of_files() {
       {"route_width", kAll, route, two},
       {"breaklines", kStream | kCloud,
        setting("--breaklines", &W::breaklines, &C::breaklines, line), two},
-      {"obstacles", kStream, setting("--obstacles", &W::obstacles, &C::obstacles, tower),
+      {"obstacles", kStream | kPack, setting("--obstacles", &W::obstacles, &C::obstacles, tower),
        bound("9")},
   };
 }
@@ -197,7 +197,8 @@ std::vector<Row> rows() {
       {"coding", kAll, coding("--coding dense", Coding::kDense, 3), two},
       {"bound_at", 0, bound_at("--bound-at points", BoundAt::kPoints, 1), coarse},
       {"bound_at", kClouds, bound_at("--bound-at lattice", BoundAt::kLattice, 2), coarse},
-      {"bound_at", kStream, bound_at("--bound-at everywhere", BoundAt::kEverywhere, 3), bound("9")},
+      {"bound_at", kStream | kPack, bound_at("--bound-at everywhere", BoundAt::kEverywhere, 3),
+       bound("9")},
       {"duplicates", 0, duplicates("--duplicates middle", Duplicates::kMiddle, 1), two},
       {"duplicates", kClouds, duplicates("--duplicates lowest", Duplicates::kLowest, 2), two},
       {"duplicates", kClouds, duplicates("--duplicates highest", Duplicates::kHighest, 3), two},

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "microtin/surface.hpp"
 #include "tests/support/files.hpp"
@@ -65,6 +67,7 @@ std::string collection(std::initializer_list<std::string> features) {
 
 constexpr const char* kTower = R"({"type": "Point", "coordinates": [123.4, 231.7]})";
 constexpr const char* kOnPost = R"({"type": "Point", "coordinates": [300, 100]})";
+constexpr const char* kOnSlope = R"({"type": "Point", "coordinates": [150, 80]})";
 constexpr const char* kAtRim = R"({"type": "Point", "coordinates": [0, 498]})";
 constexpr const char* kInVoid = R"({"type": "Point", "coordinates": [415, 415]})";
 constexpr const char* kFarAway = R"({"type": "Point", "coordinates": [9000, 415]})";
@@ -85,11 +88,15 @@ struct Found {
 Found look(const std::string& file, const Top& top, const Footprint& is_near) {
   const library::Surface surface = library::Surface::from_file(file);
   Found found;
+  std::vector<double> ys;
+  for (double y = 0; y <= 10 * (kSide - 1); y += 1.25) ys.push_back(y);
+  std::vector<double> heights(ys.size());
   for (double x = 0; x <= 10 * (kSide - 1); x += 1.25) {
-    for (double y = 0; y <= 10 * (kSide - 1); y += 1.25) {
+    const std::vector<double> xs(ys.size(), x);
+    surface.heights(ys.size(), xs.data(), ys.data(), heights.data());
+    for (std::size_t i = 0; i < ys.size(); ++i) {
+      const double y = ys[i], z = heights[i];
       if (x >= 390 && x <= 440 && y >= 390 && y <= 440) continue;  // next to the void
-      double z = 0;
-      surface.heights(1, &x, &y, &z);
       REQUIRE_FALSE(std::isnan(z));
       const double over = z - top(x, y);
       if (!std::isnan(over)) found.lowest_over = std::min(found.lowest_over, over);
@@ -113,13 +120,13 @@ double distance_to(double x, double y, double from_x, double from_y, double to_x
 }
 
 std::string encode(const Session& session, const std::string& obstacles,
-                   const std::string& options = "") {
+                   const std::string& options = "", const std::string& output = "o.mtin") {
   session.write("o.geojson", obstacles);
-  const Session::Result made = session.run(
-      join({"encode t.asc --units metre --max-error 4 --obstacles o.geojson -o o.mtin", options}));
+  const Session::Result made = session.run(join(
+      {"encode t.asc --units metre --max-error 4 --obstacles o.geojson -o ", output, options}));
   REQUIRE_MESSAGE(made.code == 0, made.err);
-  const Session::Result verified =
-      session.run("verify o.mtin t.asc --units metre --obstacles o.geojson --never-below");
+  const Session::Result verified = session.run(
+      join({"verify ", output, " t.asc --units metre --obstacles o.geojson --never-below"}));
   CHECK_MESSAGE(verified.code == 0, verified.err);
   return made.out;
 }
@@ -132,19 +139,24 @@ TEST_CASE(
     "obstacles: a tower is there in all of its radius, and the ground is as before away from it") {
   const Session session;
   write_ground(session);
-  const std::string file = session.folder() + "/o.mtin";
   struct Tower {
     const char* geometry;
     double x, y, radius;
   };
+  struct Way {
+    const char *output, *options;
+  };
   for (const Tower& tower : {Tower{kTower, 123.4, 231.7, 0}, Tower{kTower, 123.4, 231.7, 17},
                              Tower{kOnPost, 300, 100, 0}, Tower{kAtRim, 0, 498, 3}}) {
-    for (const char* options : {"", " --fast", " --z-step 0.5"}) {
+    for (const Way& way :
+         {Way{"o.mtin", ""}, Way{"o.mtin", " --fast"}, Way{"o.mtin", " --z-step 0.5"},
+          Way{"o.mtp", " --tile-size 10"}, Way{"o.mtp", " --tile-size 23 --fast"}}) {
+      const std::string file = session.folder() + "/" + way.output;
       encode(
           session,
           collection({feature(join({R"("top": 301.5, "radius": )", std::to_string(tower.radius)}),
                               tower.geometry)}),
-          options);
+          way.options, way.output);
       const Footprint covers = within(tower.x, tower.y, tower.radius + 1.3);
       const Top top = [&](double x, double y) { return covers(x, y) ? 301.5 : kNoTop; };
       const Found found = look(file, top, within(tower.x, tower.y, tower.radius + 64));
@@ -156,11 +168,31 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("obstacles: a tower on a slope stands on the highest ground that it touches") {
+  const Session session;
+  write_ground(session);
+  const Footprint covers = within(150, 80, 30);
+  double highest = 0;
+  for (double x = 120; x <= 180; ++x) {
+    for (double y = 50; y <= 110; ++y) {
+      if (covers(x, y)) highest = std::max(highest, ground_at(x, y));
+    }
+  }
+  const Top top = [&](double x, double y) { return covers(x, y) ? highest + 100 : kNoTop; };
+  for (const char* output : {"o.mtin", "o.mtp"}) {
+    encode(session, collection({feature(R"("height": 100, "radius": 30)", kOnSlope)}), "", output);
+    const Found found =
+        look(session.folder() + "/" + output, top, [](double, double) { return true; });
+    CHECK(found.lowest_over >= -kRounding);
+    CHECK(found.lowest_over < 12);  // cells that it touches reach higher
+  }
+}
+
 TEST_CASE("obstacles: lines have a width, polygons an area, and both follow the ground") {
   const Session session;
   write_ground(session);
-  encode(session, collection({feature(R"("height": 50, "radius": 4)", kLine),
-                              feature(R"("height": 30)", kBuilding)}));
+  const std::string obstacles = collection(
+      {feature(R"("height": 50, "radius": 4)", kLine), feature(R"("height": 30)", kBuilding)});
   const Top top = [](double x, double y) -> double {
     const double away =
         std::min(distance_to(x, y, 20, 20, 260, 61), distance_to(x, y, 260, 61, 470, 330));
@@ -170,22 +202,50 @@ TEST_CASE("obstacles: lines have a width, polygons an area, and both follow the 
     return in_building ? ground_at(x, y) + 30 : kNoTop;
   };
   const Footprint anywhere = [](double, double) { return true; };
-  const Found found = look(session.folder() + "/o.mtin", top, anywhere);
+  for (const char* output : {"o.mtin", "o.mtp"}) {
+    encode(session, obstacles, contains(output, ".mtp") ? " --tile-size 10" : "", output);
+    const Found found = look(session.folder() + "/" + output, top, anywhere);
+    CHECK(found.lowest_over >= -kRounding);
+    CHECK(found.lowest_over <= 12);  // the posts of a cell are at the height of its highest
+    CHECK(found.lowest_elsewhere >= -kRounding);
+  }
+}
+
+TEST_CASE("obstacles: a pack is updated where one was built, and keeps all other tiles") {
+  const Session session;
+  write_ground(session);
+  const std::string before = collection({feature(R"("top": 290)", kOnPost)}),
+                    after = collection({feature(R"("top": 290)", kOnPost),
+                                        feature(R"("top": 301.5, "radius": 17)", kTower)});
+  encode(session, before, " --tile-size 10 --z-step 0.5", "o.mtp");
+  const std::string update =
+      "update o.mtp t.asc --units metre --obstacles o.geojson --tile-vertices 500 -o ";
+  REQUIRE(session.run(update + "same.mtp").code == 0);
+  CHECK(session.read("same.mtp") == session.read("o.mtp"));
+  session.write("o.geojson", after);
+  const Session::Result updated = session.run(update + "new.mtp");
+  REQUIRE_MESSAGE(updated.code == 0, updated.err);
+  CHECK(contains(updated.out, "kept: 2"));
+  const Footprint covers = within(123.4, 231.7, 17);
+  const Top top = [&](double x, double y) { return covers(x, y) ? 301.5 : kNoTop; };
+  const Found found = look(session.folder() + "/new.mtp", top, [](double, double) { return true; });
   CHECK(found.lowest_over >= -kRounding);
-  CHECK(found.lowest_over <= 12);  // the posts of a cell are at the height of its highest
   CHECK(found.lowest_elsewhere >= -kRounding);
 }
 
 TEST_CASE("obstacles: those in voids and beyond the terrain are counted, and the kind is stated") {
   const Session session;
   write_ground(session);
-  const std::string report = encode(
-      session, collection({feature(R"("top": 400)", kInVoid), feature(R"("top": 400)", kFarAway),
-                           feature(R"("top": 300)", kTower)}));
-  CHECK(contains(report, "1 obstacle"));
-  CHECK(contains(report, "2 obstacles lie elsewhere"));
-  CHECK(library::Surface::from_file(session.folder() + "/o.mtin").info().surface ==
-        library::SurfaceKind::kObstacles);
+  const std::string obstacles =
+      collection({feature(R"("top": 400)", kInVoid), feature(R"("top": 400)", kFarAway),
+                  feature(R"("top": 300)", kTower)});
+  for (const char* output : {"o.mtin", "o.mtp"}) {
+    const std::string report = encode(session, obstacles, "", output);
+    CHECK(contains(report, "raised to 1 obstacle"));
+    CHECK(contains(report, "2 obstacles lie elsewhere"));
+    CHECK(library::Surface::from_file(session.folder() + "/" + output).info().surface ==
+          library::SurfaceKind::kObstacles);
+  }
 }
 
 TEST_CASE("obstacles: what cannot be understood is refused, with the file's name") {
@@ -205,13 +265,13 @@ TEST_CASE("obstacles: what cannot be understood is refused, with the file's name
   CHECK(contains(refused(negative, " --max-error 4"), "radius"));
   session.write("o.geojson", good);
   CHECK(session.run("encode t.asc --units metre --obstacles o.geojson -o o.mtin").code == 2);
-  CHECK(contains(session.failure("encode t.asc --units metre --max-error 4 --obstacles o.geojson "
-                                 "-o o.mtp"),
-                 "is for streams"));
   session.write("p.xyz", "0 0 1\n9 0 2\n0 9 3\n9 9 7\n");
-  CHECK(contains(session.failure("encode p.xyz --units metre --max-error 4 --obstacles o.geojson "
-                                 "-o o.mtin"),
-                 "is for rasters"));
+  for (const char* output : {"o.mtin", "o.mtp"}) {
+    CHECK(contains(session.failure(join({"encode p.xyz --units metre --max-error 4 --obstacles "
+                                         "o.geojson -o ",
+                                         output})),
+                   "is for rasters"));
+  }
 }
 
 }  // namespace microtin::obstacles_test

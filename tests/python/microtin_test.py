@@ -241,9 +241,10 @@ class Options(unittest.TestCase):
             with self.assertRaisesRegex(microtin.Error, "obstacles needs max_error"):
                 microtin.encode(heights, obstacles=tower)
             path = os.path.join(folder, "a.mtp")
-            for name, file in (("obstacles", tower), ("breaklines", line)):
-                with self.assertRaisesRegex(microtin.Error, f"{name} is an option of streams"):
-                    microtin.encode_pack(heights, path, 2, **{name: file})
+            with self.assertRaisesRegex(microtin.Error, "breaklines is an option of streams"):
+                microtin.encode_pack(heights, path, 2, breaklines=line)
+            microtin.encode_pack(heights, path, 2, obstacles=tower)
+            self.assertGreaterEqual(microtin.decode(path).height_at([10], [10])[0], heights[-11, 10] + 50)
 
     def test_each_keyword_of_packs_makes_a_difference(self):
         with tempfile.TemporaryDirectory() as folder:

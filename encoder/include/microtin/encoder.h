@@ -122,7 +122,7 @@ typedef struct microtin_options {
   uint32_t digest, phases;                /* 1: note them, in a stream */
   const char* error_map;                  /* a file with a bound for each post or point */
   const char *area, *route, *route_width; /* GeoJSON files; the width in metres */
-  const char *breaklines, *obstacles;     /* files, of streams */
+  const char *breaklines, *obstacles;     /* files; lines of streams */
 } microtin_options;
 
 /* What the encoder measured; see encoder::Report. Errors are decimals as text, "" if there is

@@ -167,7 +167,7 @@ struct Options {
   std::string area, route, route_width;
   /* Stream: a file of lines along which the surface has edges: GeoJSON, or text. Needs a bound. */
   std::string breaklines;
-  /* Stream of a raster: a GeoJSON file of what stands on the terrain: points, lines and polygons
+  /* Raster: a GeoJSON file of what stands on the terrain: points, lines and polygons
    * with `top`, or `height` above the ground, and `radius`. The surface is below none of it, and
    * nowhere below the terrain. Needs max_error; never_below and bound_at need not be set. */
   std::string obstacles;

@@ -170,7 +170,7 @@ def encode(
     max_vertices  the best vertices, at most N, instead of max_error
     max_bytes     the smallest bound that N bytes allow, instead of both; takes minutes
 
-    Options: never_below=True, bound_at="points" | "everywhere" (between posts, too, of a stream), z_step, xy_step,
+    Options: never_below=True, bound_at="points" | "everywhere" (between posts, too), z_step, xy_step,
     effort="fast" | "normal" | "best", max_degree, coding="quick" | "balanced" | "dense", units="degree:metre" or ":foot",
     depths=True, vertical_epsg, surface="ground" | "top" | "bed" | "geoid" | "obstacles", source_name, date, lineage,
     attribution, license (an SPDX expression or a URL), valid="2024-01/..", epoch (of the coordinates, a year),
