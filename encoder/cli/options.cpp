@@ -225,6 +225,9 @@ void add_error_map(CLI::App& command, Preparation& preparation, const std::strin
            "Take the bound of each post or point from a raster of bounds, of the terrain's grid or "
            "a coarser one, or from polygons with a property max_error (.geojson); " +
                elsewhere);
+  add_decimal(command, "--route-edge-error METRES", preparation.route_edge_error,
+              "Let the bound grow from that at --route to this at the edges of --route-width")
+      ->default_str("the same bound");
 }
 
 void add_breaklines(CLI::App& command, std::string& path, const std::string& description) {

@@ -21,14 +21,14 @@ using encoder::Transform;
 
 // As driver.cpp describes them.
 constexpr const char* kCreationOptions[] = {
-    "MAX_ERROR",   "MAX_VERTICES",    "MAX_BYTES",   "NEVER_BELOW",
-    "Z_STEP",      "XY_STEP",         "EFFORT",      "CODING",
-    "MAX_DEGREE",  "TILE_VERTICES",   "TILE_SIZE",   "UNITS",
-    "DEPTHS",      "SURFACE",         "SOURCE_NAME", "DATE",
-    "LINEAGE",     "ATTRIBUTION",     "LICENSE",     "VALID",
-    "EPOCH",       "SOURCE_ACCURACY", "DIGEST",      "PHASES",
-    "ERROR_MAP",   "BOUND_AT",        "AREA",        "ROUTE",
-    "ROUTE_WIDTH", "BREAKLINES",      "OBSTACLES"};
+    "MAX_ERROR",   "MAX_VERTICES",     "MAX_BYTES",   "NEVER_BELOW",
+    "Z_STEP",      "XY_STEP",          "EFFORT",      "CODING",
+    "MAX_DEGREE",  "TILE_VERTICES",    "TILE_SIZE",   "UNITS",
+    "DEPTHS",      "SURFACE",          "SOURCE_NAME", "DATE",
+    "LINEAGE",     "ATTRIBUTION",      "LICENSE",     "VALID",
+    "EPOCH",       "SOURCE_ACCURACY",  "DIGEST",      "PHASES",
+    "ERROR_MAP",   "BOUND_AT",         "AREA",        "ROUTE",
+    "ROUTE_WIDTH", "ROUTE_EDGE_ERROR", "BREAKLINES",  "OBSTACLES"};
 
 std::string lower_case(std::string text) {
   for (char& letter : text)

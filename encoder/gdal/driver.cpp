@@ -86,6 +86,8 @@ void GDALRegister_MTIN() {
       "GeoJSON file; needs ROUTE_WIDTH'/>"
       "<Option name='ROUTE_WIDTH' type='string' description='Metres around a route, half on each "
       "side'/>"
+      "<Option name='ROUTE_EDGE_ERROR' type='string' description='The bound at the edges of "
+      "ROUTE_WIDTH, to which it grows from MAX_ERROR at a route'/>"
       "<Option name='BREAKLINES' type='string' description='Of streams: a file of lines along "
       "which the surface has edges'/>"
       "<Option name='OBSTACLES' type='string' description='Raise the terrain to what "

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <utility>
 
 #include "encoder/base/error.hpp"
@@ -72,6 +73,16 @@ BoundMap::BoundMap(const std::string& path, const std::optional<Decimal>& max_er
 BoundMap::BoundMap(const std::string& name, std::unique_ptr<RasterReader> bounds,
                    const std::optional<Decimal>& max_error)
     : name_(name), max_error_(max_error), cells_(std::move(bounds)) {
+  take_scale();
+}
+
+BoundMap::BoundMap(const std::string& name, std::vector<Feature> polygons, const Decimal& max_error)
+    : name_(name), max_error_(max_error), polygons_(std::move(polygons)) {
+  take_scale();
+}
+
+void BoundMap::add(std::vector<Feature> polygons) {
+  std::move(polygons.begin(), polygons.end(), std::back_inserter(polygons_));
   take_scale();
 }
 
@@ -151,7 +162,8 @@ void BoundMap::add_cells(const Raster& raster, std::vector<int64_t>& numbers) co
   std::size_t post = 0;
   for (const Touched& row : rows) {
     for (const Touched& column : columns) {
-      numbers[post++] = least_of(cells, from(column, x.first), from(row, y.first));
+      int64_t& number = numbers[post++];
+      number = lesser(number, least_of(cells, from(column, x.first), from(row, y.first)));
     }
   }
 }
@@ -187,11 +199,8 @@ void BoundMap::finish(std::vector<int64_t>& numbers) const {
 
 void BoundMap::bound(Raster& raster) const {
   std::vector<int64_t> numbers(raster.heights.size(), kOutside);
-  if (cells_) {
-    add_cells(raster, numbers);
-  } else {
-    add_polygons(raster, numbers);
-  }
+  if (cells_) add_cells(raster, numbers);
+  add_polygons(raster, numbers);
   finish(numbers);
   raster.bounds = frame_;
   raster.bounds.numbers = std::move(numbers);
@@ -218,7 +227,7 @@ void BoundMap::bound(PointCloud& cloud) const {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       const Touched columns = touched(x, cloud.points[i].x, frame.width);
       const Touched rows = touched(y, cloud.points[i].y, frame.height);
-      numbers[i] = least_of(cells, columns, rows);
+      numbers[i] = lesser(numbers[i], least_of(cells, columns, rows));
     }
   }
   finish(numbers);

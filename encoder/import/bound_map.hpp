@@ -25,6 +25,12 @@ class BoundMap {
   BoundMap(const std::string& name, std::unique_ptr<RasterReader> bounds,
            const std::optional<Decimal>& max_error);
 
+  // Takes polygons with a bound each, outside of which `max_error` is the bound.
+  BoundMap(const std::string& name, std::vector<Feature> polygons, const Decimal& max_error);
+
+  // Adds such polygons to what the map has.
+  void add(std::vector<Feature> polygons);
+
   // Cells along an axis: first > last where there are none.
   struct Touched {
     int64_t first, last;

@@ -17,6 +17,7 @@
 #include "encoder/import/mosaic.hpp"
 #include "encoder/import/obstacles.hpp"
 #include "encoder/import/reference.hpp"
+#include "encoder/import/route_bounds.hpp"
 #include "encoder/terrain/clouds.hpp"
 #include "encoder/terrain/voids.hpp"
 #include "encoder/terrain/water.hpp"
@@ -299,6 +300,26 @@ Area area_of(const Preparation& preparation, const Reference& reference) {
   return area;
 }
 
+// The bounds of posts or points, if they have their own; those of `map` in place of the file's.
+std::optional<BoundMap> bound_map_of(const Preparation& preparation, Unit unit,
+                                     std::optional<BoundMap> map = std::nullopt) {
+  const std::optional<Decimal>&least = preparation.max_error, &edge = preparation.route_edge_error;
+  if (!map && !preparation.error_map.empty()) map.emplace(preparation.error_map, least);
+  if (!edge) return map;
+  if (preparation.route.empty() || !preparation.route_width || !least) {
+    throw Error(parameter("route_edge_error") + " needs " + parameter("route") + " and " +
+                parameter("max_error"));
+  }
+  std::vector<Feature> bounds =
+      route_bounds(preparation.route, *preparation.route_width, *least, *edge, unit);
+  if (map) {
+    map->add(std::move(bounds));
+  } else {
+    map.emplace(preparation.route, std::move(bounds), *least);
+  }
+  return map;
+}
+
 [[noreturn]] void refuse_obstacles_of_points(const Preparation& preparation) {
   throw Error(preparation.obstacles + ": " + parameter("obstacles") +
               " is for rasters, and these are points");
@@ -321,17 +342,13 @@ void raise_to_obstacles(Source& source, const Preparation& preparation) {
 
 }  // namespace
 
-void shape(Source& source, const Preparation& preparation, const BoundMap* map) {
+void shape(Source& source, const Preparation& preparation, std::optional<BoundMap> map) {
   if (has_area(preparation)) {
     const Area area = area_of(preparation, terrain::reference_of(source));
     std::visit([&](auto& one) { area.cut(one); }, source);
   }
-  if (map != nullptr) {
-    std::visit([&](auto& one) { map->bound(one); }, source);
-  } else if (!preparation.error_map.empty()) {
-    const BoundMap read(preparation.error_map, preparation.max_error);
-    std::visit([&](auto& one) { read.bound(one); }, source);
-  }
+  map = bound_map_of(preparation, terrain::reference_of(source).horizontal_unit, std::move(map));
+  if (map) std::visit([&](auto& one) { map->bound(one); }, source);
   if (!preparation.obstacles.empty()) raise_to_obstacles(source, preparation);
 }
 
@@ -354,13 +371,15 @@ void cut_to_area(OpenSource& source, const Preparation& preparation) {
 }
 
 void add_bounds(OpenSource& source, const Preparation& preparation) {
-  auto map = std::make_shared<const BoundMap>(preparation.error_map, preparation.max_error);
   if (auto* const cloud = std::get_if<PointCloud>(&source)) {
-    map->bound(*cloud);
-  } else {
-    auto& raster = std::get<std::unique_ptr<RasterReader>>(source);
-    raster = with_bounds(std::move(raster), std::move(map));
+    const auto map = bound_map_of(preparation, cloud->reference.horizontal_unit);
+    if (map) map->bound(*cloud);
+    return;
   }
+  auto& raster = std::get<std::unique_ptr<RasterReader>>(source);
+  auto map = bound_map_of(preparation, raster->frame().reference.horizontal_unit);
+  if (!map) return;
+  raster = with_bounds(std::move(raster), std::make_shared<const BoundMap>(std::move(*map)));
 }
 
 void raise_to_obstacles(OpenSource& source, const Preparation& preparation) {
@@ -374,7 +393,7 @@ void raise_to_obstacles(OpenSource& source, const Preparation& preparation) {
 OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
   OpenSource source = prepared(path, parts_of(path, preparation), preparation);
   if (has_area(preparation)) cut_to_area(source, preparation);
-  if (!preparation.error_map.empty()) add_bounds(source, preparation);
+  add_bounds(source, preparation);
   if (!preparation.obstacles.empty()) raise_to_obstacles(source, preparation);
   return source;
 }

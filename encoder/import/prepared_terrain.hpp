@@ -44,9 +44,10 @@ struct Preparation {
   std::string area;                        // the file of polygons outside of which all is void
   std::string route;                       // the file of lines far from which all is void
   std::optional<Decimal> route_width;      // metres; together with `route`
-  std::string error_map;                   // the file of posts' own bounds; empty: none
-  std::string obstacles;                   // the file of what raises the terrain; empty: none
-  std::optional<Decimal> max_error;        // the bound where that says nothing
+  std::optional<Decimal> route_edge_error;  // the bound there; max_error is that at the lines
+  std::string error_map;                    // the file of posts' own bounds; empty: none
+  std::string obstacles;                    // the file of what raises the terrain; empty: none
+  std::optional<Decimal> max_error;         // the bound where that says nothing
   // Settled with each file's; nothing: units and systems are left alone, where no heights are used.
   std::optional<Reference> asked = Reference{};
 };
@@ -57,9 +58,10 @@ struct Preparation {
 std::vector<std::string> files_of(const std::string& path, const Preparation& preparation);
 
 // Cuts a terrain to the area, gives its samples the bounds of the map, and raises it to the
-// obstacles, as the files of `preparation` say. `map` replaces its error map unless null. Throws
-// Error naming the file.
-void shape(Source& source, const Preparation& preparation, const BoundMap* map = nullptr);
+// obstacles, as the files of `preparation` say. `map`, if there is one, replaces its error map.
+// Throws Error naming the file.
+void shape(Source& source, const Preparation& preparation,
+           std::optional<BoundMap> map = std::nullopt);
 
 // Throws Error naming the file.
 Source prepared_terrain(const std::string& path, const Preparation& preparation);

@@ -268,6 +268,7 @@ importing::Preparation preparation_of(const Options& options) {
   preparation.area = options.area;
   preparation.route = options.route;
   preparation.route_width = decimal_of("route_width", options.route_width);
+  preparation.route_edge_error = decimal_of("route_edge_error", options.route_edge_error);
   preparation.obstacles = options.obstacles;
   return preparation;
 }
@@ -302,7 +303,7 @@ class SettledTerrain {
       map.emplace(base::parameter("error_map"), std::make_unique<KeptRaster>(*content.bounds),
                   preparation.max_error);
     }
-    importing::shape(*changed_, preparation, map ? &*map : nullptr);
+    importing::shape(*changed_, preparation, std::move(map));
   }
 
   const terrain::Source& source() const { return changed_ ? *changed_ : source_; }

@@ -160,6 +160,7 @@ Options options_of(const microtin_options& given) {
   options.area = text_of(given.area);
   options.route = text_of(given.route);
   options.route_width = text_of(given.route_width);
+  options.route_edge_error = text_of(given.route_edge_error);
   options.breaklines = text_of(given.breaklines);
   options.obstacles = text_of(given.obstacles);
   options.max_vertices = given.max_vertices;

@@ -66,6 +66,7 @@ constexpr NamedOption kOptions[] = {
     {"area", set_text<&Options::area>, kText},
     {"route", set_text<&Options::route>, kText},
     {"route_width", set_text<&Options::route_width>, kText},
+    {"route_edge_error", set_text<&Options::route_edge_error>, kText},
     {"breaklines", set_text<&Options::breaklines>, kText},
     {"obstacles", set_text<&Options::obstacles>, kText},
     {"max_vertices", set_number<&Options::max_vertices>, kNumber},

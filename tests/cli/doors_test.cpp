@@ -158,6 +158,8 @@ std::vector<Row> rows_of_files() {
       {"area", kAll, setting("--area", &W::area, &C::area, area), two},
       {"route", kAll, route, two},
       {"route_width", kAll, route, two},
+      {"route_edge_error", kAll,
+       route + setting("--route-edge-error", &W::route_edge_error, &C::route_edge_error, "7"), two},
       {"breaklines", kStream | kCloud,
        setting("--breaklines", &W::breaklines, &C::breaklines, line), two},
       {"obstacles", kStream | kPack, setting("--obstacles", &W::obstacles, &C::obstacles, tower),

@@ -61,6 +61,7 @@ std::vector<CommandLimit> command_limits() {
       {"", "--xy-step", {"0.000000001"}, {"-1"}},
       {"", "--water-level", {"-9", "9"}, {"x"}},
       {"", "--route-width", {"0 --route none.geojson"}, {"-1 --route none.geojson"}},
+      {"", "--route-edge-error", {"0", "0.000000001"}, {"-1"}},
       {"encode", "--shard", {"0:0", "0:4294967295"}, {"1:0", "0:4294967296"}},
       {"plan", "--shards", {"1", "4294967295"}, {"0", "4294967296"}},
       {"fractal", "--size", {"2", "8193"}, {"1", "8194"}},

@@ -124,6 +124,8 @@ const std::vector<OptionRow> kOptionRows = {
     {"encode", "--area", "t.asc --max-error 2 -o o.mtin", "bounds.geojson"},
     {"encode", "--obstacles", "t.asc --max-error 99 -o o.mtin", "tower.geojson"},
     {"encode", "--route", "t.asc --max-error 2 --route-width 9 -o o.mtin", "route.geojson"},
+    {"encode", "--route-edge-error",
+     "t.asc --max-error 2 --route route.geojson --route-width 9 -o o.mtin", "9"},
     {"encode", "--route-width", "t.asc --max-error 2 --route route.geojson -o o.mtin", "9"},
     {"encode", "--classes", "s.las -o o.mtin", "all"},
     {"encode", "--fill-voids", "t.asc --max-error 2 -o o.mtin", "1"},
@@ -187,6 +189,7 @@ const std::vector<OptionRow> kOptionRows = {
     {"verify", "--json", "t.mtin t.asc", ""},
     {"verify", "--area", "m.mtin t.asc", "bounds.geojson"},
     {"verify", "--obstacles", "tower.mtin t.asc", "tower.geojson"},
+    {"verify", "--route-edge-error", "r.mtin t.asc --route route.geojson --route-width 9", "9"},
     {"verify", "--route", "m.mtin t.asc --route-width 9", "route.geojson"},
     {"verify", "--route-width", "m.mtin t.asc --route route.geojson", "9"},
     {"verify", "--classes", "s.mtin s.las", "2"},
@@ -277,6 +280,7 @@ void write_inputs(const Session& session) {
         "t.asc --tile-size 9 -o s.mtp", "t.asc --max-error 1 --tile-size 20 -o m.mtp",
         "t.asc --max-error 99 --obstacles tower.geojson -o tower.mtin",
         "t.asc --max-error 99 --obstacles tower.geojson -o tower.mtp",
+        "t.asc --max-error 2 --route route.geojson --route-width 9 --route-edge-error 9 -o r.mtin",
         "t.asc --max-error 1 -o fine.mtin", "sea.xyz -o sea.mtin",
         "t.asc apart.asc --water-level 50 --absent sea -o seas.mtin",
         "t.asc --max-error 2 --fill-voids 99 -o filled.mtin",
@@ -369,40 +373,43 @@ TEST_CASE("options: none is without a row") {
 
 namespace {
 
-// Options that differ from `--max-error 1.9 --z-step 0.5 --tile-vertices 60 --tile-size 10`.
-const std::vector<std::string> kOfShards = {"--max-error 11",
-                                            "--tile-vertices 121",
-                                            "--tile-size 9",
-                                            "--z-step 0.6",
-                                            "--never-below",
-                                            "--error-map bounds.geojson",
-                                            "--bound-at lattice",
-                                            "--bound-at everywhere",
-                                            "--obstacles tower.geojson",
-                                            "--fast",
-                                            "--duplicates lowest",
-                                            "--best",
-                                            "--max-degree 6",
-                                            "--max-degree 20",
-                                            "--coding quick",
-                                            "--coding dense",
-                                            "--area bounds.geojson",
-                                            "--route route.geojson --route-width 9",
-                                            "--fill-voids 1",
-                                            "--epsg 25832",
-                                            "--water-level 50",
-                                            "--units foot",
-                                            "--depths",
-                                            "--date 2026",
-                                            "--lineage thinned",
-                                            "--water-level 50 --water-mask mask.asc",
-                                            "--source-name s",
-                                            "--surface top",
-                                            "--attribution a",
-                                            "--license MIT",
-                                            "--valid ../2025",
-                                            "--epoch 2020",
-                                            "--source-accuracy 'RMSE 1'"};
+// Options that differ from those of kCommon, or add to them.
+const std::vector<std::string> kOfShards = {
+    "--max-error 11",
+    "--tile-vertices 121",
+    "--tile-size 9",
+    "--z-step 0.6",
+    "--never-below",
+    "--error-map bounds.geojson",
+    "--bound-at lattice",
+    "--bound-at everywhere",
+    "--obstacles tower.geojson",
+    "--fast",
+    "--duplicates lowest",
+    "--best",
+    "--max-degree 6",
+    "--max-degree 20",
+    "--coding quick",
+    "--coding dense",
+    "--area bounds.geojson",
+    "--route route.geojson --route-width 9",
+    "--route route.geojson --route-width 9 --route-edge-error 30",
+    "--fill-voids 1",
+    "--epsg 25832",
+    "--water-level 50",
+    "--units foot",
+    "--depths",
+    "--date 2026",
+    "--lineage thinned",
+    "--water-level 50 --water-mask mask.asc",
+    "--source-name s",
+    "--surface top",
+    "--attribution a",
+    "--license MIT",
+    "--valid ../2025",
+    "--epoch 2020",
+    "--source-accuracy 'RMSE 1'",
+};
 
 // Rules for points, which say nothing of a raster.
 const std::set<std::string> kWithoutEffect = {"", "--bound-at lattice", "--duplicates lowest"};
@@ -468,7 +475,7 @@ TEST_CASE("options: none is without a row in the table of shards") {
   Names known = kNotOfShards;
   for (const std::string& option : kOfShards) known.insert(name_of(option));
   for (const char* const name :
-       {"--absent", "--cells", "--resume", "--route-width", "--water-mask"}) {
+       {"--absent", "--cells", "--resume", "--route-edge-error", "--route-width", "--water-mask"}) {
     known.insert(name);
   }
   CHECK(text_of(without(options_of(session, "encode"), {"--allow-vrt", "--band"})) ==

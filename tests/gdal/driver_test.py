@@ -166,10 +166,12 @@ class Driver(unittest.TestCase):
             "AREA": [square],
             "ROUTE": [line],
             "ROUTE_WIDTH": ["500"],
+            "ROUTE_EDGE_ERROR": ["9"],
             "BREAKLINES": [line],
             "OBSTACLES": [tower],
         }
         together = {"ROUTE": {"ROUTE_WIDTH": "900"}, "ROUTE_WIDTH": {"ROUTE": line}}
+        together["ROUTE_EDGE_ERROR"] = {"ROUTE": line, "ROUTE_WIDTH": "500"}
         text = gdal.GetDriverByName("MTIN").GetMetadataItem("DMD_CREATIONOPTIONLIST")
         listed = xml.etree.ElementTree.fromstring(text).iter("Option")
         self.assertEqual({option.get("name") for option in listed}, set(rows))

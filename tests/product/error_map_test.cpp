@@ -463,6 +463,42 @@ TEST_CASE("route: what lies near its lines stays, with the area's polygons") {
   CHECK(session.run("encode t.asc --route route.geojson -o b.mtin").code == 2);
 }
 
+TEST_CASE("route: the bound grows from its lines to the edges, and fewer vertices are needed") {
+  const Session session;
+  write_terrain(session);
+  session.write("route.geojson",
+                R"({"type": "LineString", "coordinates": [[1000, 2100], [1600, 2100]]})");
+  const std::string route = " --units metre --route route.geojson --route-width 160";
+  for (const std::string file : {"a.mtin", "a.mtp"}) {
+    const std::string tiles = file == "a.mtp" ? " --tile-size 20" : "";
+    const std::string encode = join({"encode t.asc --max-error 1 -o ", file, tiles, route});
+    expect_runs(session, encode);
+    const uint64_t vertices =
+        library::Surface::from_file(session.folder() + "/" + file).info().vertices;
+    expect_runs(session, encode + " --route-edge-error 9");
+    const library::Surface surface = library::Surface::from_file(session.folder() + "/" + file);
+    CHECK(surface.info().vertices < vertices);
+    const library::Mesh mesh = surface.mesh();
+    double largest = 0;
+    for (int row = 2; row <= 18; ++row) {
+      const double part = std::abs(row - 10) / 8.0;
+      for (int column = 0; column <= 50; ++column) {
+        const double z = height_at(mesh, 1000 + 10 * column, 2000 + 10 * row);
+        if (std::isnan(z)) continue;
+        const double error = std::abs(z - height_of(column, row));
+        CHECK(error <= 1 + 8 * part + 1e-6);
+        largest = std::max(largest, error);
+      }
+    }
+    CHECK(largest > 2);
+    expect_runs(session, join({"verify ", file, " t.asc", route, " --route-edge-error 9"}));
+    CHECK(session.run(join({"verify ", file, " t.asc", route})).code != 0);
+  }
+  const std::string base = "encode t.asc -o b.mtin" + route;
+  CHECK(contains(session.failure(base + " --max-error 5 --route-edge-error 4"), "is less than"));
+  CHECK(contains(session.failure(base + " --route-edge-error 4"), "needs"));
+}
+
 TEST_CASE("error map: a bound of a point or a line is refused, not left out") {
   const Session session;
   write_terrain(session);

@@ -24,6 +24,20 @@ Row row(const std::string& name, const std::string& text, Value Options::*member
   return {name, text, [=](const Options& options) { return options.*member == value; }};
 }
 
+std::vector<Row> rows_of_files() {
+  using O = Options;
+  const std::string words = "a, b";
+  return {
+      row("error_map", words, &O::error_map, words),
+      row("area", words, &O::area, words),
+      row("route", words, &O::route, words),
+      row("route_width", "30", &O::route_width, std::string("30")),
+      row("route_edge_error", "40", &O::route_edge_error, std::string("40")),
+      row("breaklines", words, &O::breaklines, words),
+      row("obstacles", words, &O::obstacles, words),
+  };
+}
+
 std::vector<Row> rows() {
   using O = Options;
   using encoder::BoundAt;
@@ -32,14 +46,9 @@ std::vector<Row> rows() {
   using encoder::SearchEffort;
   using encoder::SurfaceKind;
   const std::string words = "a, b";
-  return {
+  std::vector<Row> all = rows_of_files();
+  const std::vector<Row> others = {
       row("max_error", "2.5", &O::max_error, std::string("2.5")),
-      row("error_map", words, &O::error_map, words),
-      row("area", words, &O::area, words),
-      row("route", words, &O::route, words),
-      row("route_width", "30", &O::route_width, std::string("30")),
-      row("breaklines", words, &O::breaklines, words),
-      row("obstacles", words, &O::obstacles, words),
       row("max_vertices", "4294967295", &O::max_vertices, UINT32_MAX),
       row("max_bytes", "0", &O::max_bytes, 0u),
       row("max_bytes", "77", &O::max_bytes, 77u),
@@ -84,6 +93,8 @@ std::vector<Row> rows() {
       row("epoch", "2020.5", &O::epoch, std::string("2020.5")),
       row("source_accuracy", "LE90 4", &O::source_accuracy, std::string("LE90 4")),
   };
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
 }
 
 std::string error_of(const std::string& name, const std::string& text) {

@@ -123,6 +123,7 @@ typedef struct microtin_options {
   const char* error_map;                  /* a file with a bound for each post or point */
   const char *area, *route, *route_width; /* GeoJSON files; the width in metres */
   const char *breaklines, *obstacles;     /* files; lines of streams */
+  const char* route_edge_error;           /* the bound at the edges of route_width */
 } microtin_options;
 
 /* What the encoder measured; see encoder::Report. Errors are decimals as text, "" if there is

@@ -163,8 +163,9 @@ struct Options {
    * max_vertices or max_bytes all bounds are scaled alike, as much as it takes. */
   std::string error_map;
   /* Files in GeoJSON, in the system of the terrain. `area`: polygons; `route`: lines, with
-   * route_width metres, half on each side. What lies outside of both has no heights. */
-  std::string area, route, route_width;
+   * route_width metres, half on each side. What lies outside of both has no heights. With
+   * route_edge_error the bound grows from max_error at a route to that at the edges. */
+  std::string area, route, route_width, route_edge_error;
   /* Stream: a file of lines along which the surface has edges: GeoJSON, or text. Needs a bound. */
   std::string breaklines;
   /* Raster: a GeoJSON file of what stands on the terrain: points, lines and polygons

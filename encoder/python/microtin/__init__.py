@@ -182,9 +182,9 @@ def encode(
     bounds or of polygons with a property max_error (.geojson). Elsewhere max_error holds. A limit scales all bounds.
 
     Paths of GeoJSON files, in the system of the heights: area (polygons; other heights are void), route with
-    route_width=METRES (lines; heights far from them are void), and of streams with max_error: breaklines (lines that
-    become edges) and obstacles (what stands on the terrain, with `top` or `height` and `radius`; the surface is below
-    none of it).
+    route_width=METRES (lines; heights far from them are void) and maybe route_edge_error (the bound at the edges, to
+    which it grows from max_error), obstacles (with max_error: what stands on the terrain, with `top` or `height` and
+    `radius`; the surface is below none of it), and of streams with max_error: breaklines (lines that become edges).
 
     Without a bound and a limit every height is a vertex. Takes some 20 us a height, on all processors. Raises Error, also if
     an array is not two-dimensional or a height out of range.
@@ -327,6 +327,7 @@ def _options(
     route_width: Optional[Number] = None,
     breaklines: Optional[Path] = None,
     obstacles: Optional[Path] = None,
+    route_edge_error: Optional[Number] = None,
     **numbers: int,
 ) -> Tuple[_library.Options, _Caller]:
     chosen = (
@@ -375,6 +376,7 @@ def _options(
         route_width=_decimal(route_width),
         breaklines=_file(breaklines),
         obstacles=_file(obstacles),
+        route_edge_error=_decimal(route_edge_error),
         progress=caller.function,
         **numbers,
     )

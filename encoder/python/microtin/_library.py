@@ -88,6 +88,7 @@ class Options(_Sized):
         ("route_width", c_char_p),
         ("breaklines", c_char_p),
         ("obstacles", c_char_p),
+        ("route_edge_error", c_char_p),
     ]
 
 
