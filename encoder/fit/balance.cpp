@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <optional>
 
 namespace microtin::fit {
 namespace {
@@ -13,52 +13,73 @@ namespace {
 constexpr double kTolerance = 0.01, kFlatTolerance = 0.07;
 constexpr double kCentred = 0.02;  // that of all posts, without moving vertices
 
-constexpr std::size_t kLargeParts = 32;  // flat parts with that part of all posts
+constexpr std::size_t kLargeParts = 32;  // flat parts with that part of all posts: no more of them
 constexpr double kOneSided = 0.25;       // middles so far above the source, in radii
 
-// Sets of samples that are joined two by two.
-class Sets {
+// Heights that enough samples have for a large part. They are counted by hashes: where some agree,
+// it may be that none has.
+class CommonHeights {
  public:
-  explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  explicit CommonHeights(const std::vector<Sample>& samples)
+      : counts_(std::size_t{1} << kBits), all_(samples.size()) {
+    for (const Sample& sample : samples) ++counts_[hash(sample.height)];
+  }
+  bool has(int32_t height) const { return counts_[hash(height)] * kLargeParts >= all_; }
 
-  uint32_t of(uint32_t sample) {
-    while (parent_[sample] != sample) {
-      parent_[sample] = parent_[parent_[sample]];
-      sample = parent_[sample];
-    }
-    return sample;
+ private:
+  static constexpr int kBits = 16;
+  static std::size_t hash(int32_t height) {
+    constexpr uint32_t kGolden = 2654435769U;
+    return static_cast<uint32_t>(height) * kGolden >> (32 - kBits);
   }
 
-  void join(uint32_t a, uint32_t b) {
-    const uint32_t first = of(a), second = of(b);
-    parent_[std::max(first, second)] = std::min(first, second);
+  std::vector<uint32_t> counts_;
+  std::size_t all_;
+};
+
+// Samples side by side that have one height.
+class FlatParts {
+ public:
+  explicit FlatParts(const Surface& surface)
+      : posts_(surface.posts()), samples_(surface.survey().samples) {}
+
+  // Visits those that hang together with this one, as far as visit(sample) says that it is new
+  // there, and returns how many are. In steps outwards: few are in hand at a time.
+  template <class Visit>
+  std::size_t spread(uint32_t from, const Visit& visit) {
+    std::size_t size = 0;
+    visit(from);
+    for (edge_ = {from}; !edge_.empty(); edge_.swap(next_)) {
+      size += edge_.size();
+      next_.clear();
+      for (const uint32_t sample : edge_) {
+        for (const Step step : {Step{-1, 0}, Step{1, 0}, Step{0, -1}, Step{0, 1}}) {
+          const std::optional<uint32_t> beside = sample_beside(samples_[sample], step);
+          if (beside && visit(*beside)) next_.push_back(*beside);
+        }
+      }
+    }
+    return size;
   }
 
  private:
-  std::vector<uint32_t> parent_;
-};
+  struct Step {
+    int x, y;
+  };
 
-// Joins samples side by side that have one height; they are in lexicographic order.
-Sets flat_sets(const std::vector<Sample>& samples) {
-  Sets sets(samples.size());
-  uint32_t east = 0;
-  for (uint32_t i = 0; i < samples.size(); ++i) {
-    const Sample& here = samples[i];
-    const auto join = [&](uint32_t other, int dx, int dy) {
-      if (other >= samples.size()) return;
-      const Sample& there = samples[other];
-      const bool beside = there.place.x == here.place.x + dx && there.place.y == here.place.y + dy;
-      if (beside && there.height == here.height) sets.join(i, other);
-    };
-    join(i + 1, 0, 1);
-    const auto is_before = [&](Point p) {
-      return p.x < here.place.x + 1 || (p.x == here.place.x + 1 && p.y < here.place.y);
-    };
-    while (east < samples.size() && is_before(samples[east].place)) ++east;
-    join(east, 1, 0);
+  // The sample there, if it has the same height.
+  std::optional<uint32_t> sample_beside(const Sample& sample, Step step) const {
+    const int x = sample.place.x + step.x, y = sample.place.y + step.y;
+    if (std::min(x, y) < 0 || std::max(x, y) > kLatticeMax) return std::nullopt;
+    const auto post = posts_.find({static_cast<uint16_t>(x), static_cast<uint16_t>(y)});
+    if (!post || samples_[posts_.number(*post)].height != sample.height) return std::nullopt;
+    return posts_.number(*post);
   }
-  return sets;
-}
+
+  const PostIndex& posts_;
+  const std::vector<Sample>& samples_;
+  std::vector<uint32_t> edge_, next_;
+};
 
 // Whether the middle of what is allowed is above the source.
 bool is_one_sided(const Surface& surface, double radius) {
@@ -73,32 +94,45 @@ bool is_one_sided(const Surface& surface, double radius) {
 }  // namespace
 
 Balance::Balance(const Surface& surface, double weight)
-    : shares_(surface.vertex_limit()), radius_(surface.mean_radius()), weight_(weight) {
+    : first_(surface.vertex_limit(), kNone), radius_(surface.mean_radius()), weight_(weight) {
   const PostIndex& posts = surface.posts();
   if (radius_ == 0 || is_one_sided(surface, radius_)) return;
-  find_parts(surface.survey());
+  const std::vector<uint8_t> part_of = find_parts(surface);
   std::vector<bool> met(posts.size());
-  surface.visit_covered([&](Index triangle) { add_face(surface, triangle, met); });
-  for (const std::vector<Share>& shares : shares_) {
-    for (const Share& share : shares) ++parts_[share.part].vertices;
-  }
+  shares_.reserve(surface.vertices());
+  surface.visit_covered([&](Index triangle) { add_face(surface, triangle, part_of, met); });
+  for (const Share& share : shares_) ++parts_[share.part].vertices;
 }
 
-void Balance::find_parts(const Survey& survey) {
-  Sets sets = flat_sets(survey.samples);
-  std::vector<uint32_t> size(survey.samples.size()), number(survey.samples.size());
-  for (uint32_t i = 0; i < size.size(); ++i) ++size[sets.of(i)];
+std::vector<uint8_t> Balance::find_parts(const Surface& surface) {
+  const std::vector<Sample>& samples = surface.survey().samples;
   parts_.push_back({0, 0, kTolerance * radius_, 0});
-  for (uint32_t i = 0; i < size.size(); ++i) {
-    if (size[i] * kLargeParts < size.size()) continue;
-    number[i] = static_cast<uint32_t>(parts_.size());
+  const CommonHeights common(samples);
+  FlatParts flat(surface);
+  std::vector<uint8_t> part_of(samples.size());
+  std::vector<bool> met(samples.size());
+  const auto is_new = [&](uint32_t sample) {
+    const bool was_met = met[sample];
+    met[sample] = true;
+    return !was_met;
+  };
+  for (uint32_t i = 0; i < samples.size(); ++i) {
+    if (met[i] || !common.has(samples[i].height)) continue;
+    if (flat.spread(i, is_new) * kLargeParts < samples.size()) continue;
+    const auto part = static_cast<uint8_t>(parts_.size());
     parts_.push_back({0, 0, kFlatTolerance * radius_, 0});
+    flat.spread(i, [&](uint32_t sample) {
+      const bool was_part = part_of[sample] == part;
+      part_of[sample] = part;
+      return !was_part;
+    });
   }
-  for (uint32_t i = 0; i < size.size(); ++i) part_.push_back(number[sets.of(i)]);
+  return part_of;
 }
 
 // Posts on the border of several faces count in the first.
-void Balance::add_face(const Surface& surface, Index triangle, std::vector<bool>& met) {
+void Balance::add_face(const Surface& surface, Index triangle, const std::vector<uint8_t>& part_of,
+                       std::vector<bool>& met) {
   const Index* const corner = surface.mesh().origin + first_edge(triangle);
   const Point a = surface.place(corner[0]), b = surface.place(corner[1]),
               c = surface.place(corner[2]);
@@ -116,7 +150,7 @@ void Balance::add_face(const Surface& surface, Index triangle, std::vector<bool>
       double error = surface.survey().samples[sample].height / -65536.0;
       for (int k = 0; k < 3; ++k) error += weight[k] * surface.height(corner[k]);
       add_error(0, error, corner, weight);
-      if (part_[sample] != 0) add_error(part_[sample], error, corner, weight);
+      if (part_of[sample] != 0) add_error(part_of[sample], error, corner, weight);
     }
   });
 }
@@ -125,13 +159,13 @@ void Balance::add_error(uint32_t part, double error, const Index* corner, const 
   parts_[part].sum += error;
   parts_[part].posts += 1;
   for (int k = 0; k < 3; ++k) {
-    std::vector<Share>& shares = shares_[corner[k]];
-    const auto same = [&](const Share& share) { return share.part == part; };
-    const auto at = std::find_if(shares.begin(), shares.end(), same);
-    if (at != shares.end()) {
-      at->weight += weight[k];
+    uint32_t* at = &first_[corner[k]];
+    while (*at != kNone && shares_[*at].part != part) at = &shares_[*at].next;
+    if (*at != kNone) {
+      shares_[*at].weight += weight[k];
     } else {
-      shares.push_back({part, weight[k]});
+      *at = static_cast<uint32_t>(shares_.size());
+      shares_.push_back({weight[k], part, kNone});
     }
   }
 }
@@ -145,7 +179,8 @@ double Balance::excess(const Part& part, double change) const {
 
 double Balance::price(Index v, int32_t steps) const {
   double price = 0;
-  for (const Share& share : shares_[v]) {
+  for (uint32_t i = first_[v]; i != kNone; i = shares_[i].next) {
+    const Share& share = shares_[i];
     const Part& part = parts_[share.part];
     const double change = excess(part, share.weight * steps) - excess(part, 0);
     price += weight_ * part.vertices * change;
@@ -154,7 +189,9 @@ double Balance::price(Index v, int32_t steps) const {
 }
 
 void Balance::move(Index v, int32_t steps) {
-  for (const Share& share : shares_[v]) parts_[share.part].sum += share.weight * steps;
+  for (uint32_t i = first_[v]; i != kNone; i = shares_[i].next) {
+    parts_[shares_[i].part].sum += shares_[i].weight * steps;
+  }
 }
 
 bool Balance::is_centred() const {

@@ -17,8 +17,8 @@ namespace microtin::fit {
 class Balance {
  public:
   // weight: what a mean that is off by a radius is worth, in bits a vertex.
-  // Linear in posts, but for an inverse Ackermann function. Of the surface only heights may change
-  // then, and `move` reports each change.
+  // Linear in posts, where no cell of their index holds many. Of the surface only heights may
+  // change then, and `move` reports each change.
   Balance(const Surface& surface, double weight);
 
   // What a change of a height makes of the means, in bits: below 0 where they come nearer to zero.
@@ -41,20 +41,24 @@ class Balance {
     double vertices;   // that it depends on
   };
   struct Share {
-    uint32_t part;
     double weight;  // what a step of the vertex adds to the part's sum
+    uint32_t part;
+    uint32_t next;  // of the vertex; kNone
   };
+  static constexpr uint32_t kNone = ~uint32_t{0};
 
-  void find_parts(const Survey& survey);
-  void add_face(const Surface& surface, Index triangle, std::vector<bool>& met);
+  // By sample: its flat part, or 0.
+  std::vector<uint8_t> find_parts(const Surface& surface);
+  void add_face(const Surface& surface, Index triangle, const std::vector<uint8_t>& part_of,
+                std::vector<bool>& met);
   void add_error(uint32_t part, double error, const Index* corner, const double* weight);
   double excess(const Part& part, double change) const;
 
-  std::vector<Part> parts_;                 // the first: all posts
-  std::vector<uint32_t> part_;              // by sample: its flat part, or 0
-  std::vector<std::vector<Share>> shares_;  // by vertex
-  double radius_;                           // of the bounds, on average
-  double weight_;                           // bits a vertex, if a mean is off by a radius
+  std::vector<Part> parts_;  // the first: all posts
+  std::vector<Share> shares_;
+  std::vector<uint32_t> first_;  // by vertex: its first share, or kNone
+  double radius_;                // of the bounds, on average
+  double weight_;                // bits a vertex, if a mean is off by a radius
 };
 
 }  // namespace microtin::fit

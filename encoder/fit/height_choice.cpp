@@ -36,6 +36,7 @@ HeightChoice::HeightChoice(Surface& surface, uint32_t degree, double weight)
       allowed_(surface.vertex_limit()) {
   find_rings(degree);
   find_dependents();
+  z_.reserve(vertex_.size());
   for (const Index v : vertex_) z_.push_back(surface_.height(v));
   residual_.resize(vertex_.size());
   find_levels();
@@ -52,6 +53,9 @@ void HeightChoice::find_rings(uint32_t degree) {
     live.push_back(v);
     places.push_back(surface_.place(v));
   }
+  vertex_.reserve(live.size());
+  place_.reserve(live.size());
+  ring_start_.reserve(live.size() + 1);
   Triangulation all(places);
   const Order order = breadth_first_order(all, degree);
   const auto send = [&](Index i) {
@@ -73,6 +77,7 @@ void HeightChoice::find_rings(uint32_t degree) {
     }
   }
   ring_start_.push_back(static_cast<uint32_t>(rings_.size()));
+  rings_.shrink_to_fit();
 }
 
 void HeightChoice::find_dependents() {
@@ -206,6 +211,7 @@ void HeightChoice::find_levels() {
     if (!post) return std::nullopt;
     return surface_.survey().samples[posts.number(*post)].height;
   };
+  level_.reserve(place_.size());
   for (const Point p : place_) {
     const auto here = height(p.x, p.y);
     const auto as_here = [&](int dx, int dy) { return height(p.x + dx, p.y + dy) == here; };

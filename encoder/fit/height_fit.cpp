@@ -230,7 +230,6 @@ void HeightFit::add_posts(const std::array<Vertex, 3>& corner) {
   const float c_along_x = static_cast<float>(a.y - b.y) * scale;
   const float c_along_y = static_cast<float>(b.x - a.x) * scale;
   const PostIndex& posts = surface_.posts();
-  const float* const rows = posts.rows();
   const float* const middles = surface_.middles();
   const float* const radii = surface_.radii();
   const std::size_t begin = posts_;
@@ -243,10 +242,11 @@ void HeightFit::add_posts(const std::array<Vertex, 3>& corner) {
     float* const radius = radius_.data() + to;
     float* const to_b = weight_[1].data() + to;
     float* const to_c = weight_[2].data() + to;
+    const float* const rows = posts.rows_from(first);
     const auto x = static_cast<float>(posts.place(first).x - a.x);
     const float b_before = b_along_x * x, c_before = c_along_x * x;
     for (std::size_t i = 0; i < last - first; i += kLanes) {
-      const Lanes y = load(rows + first + i) - static_cast<float>(a.y);
+      const Lanes y = load(rows + i) - static_cast<float>(a.y);
       store(b_before + b_along_y * y, to_b + i);
       store(c_before + c_along_y * y, to_c + i);
       store(static_cast<float>(va.z) - load(middles + first + i), above + i);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "encoder/exact/wide.hpp"
 #include "encoder/layers.hpp"
 #include "shared/predicates.hpp"
 
@@ -16,25 +17,31 @@ namespace microtin::fit {
 
 // Posts sorted into square cells, about as many cells as posts: on a raster one post a cell, whose
 // triangles are then scanned column by column without a test. So are cells that hold many posts, of
-// clouds with crowds far apart.
+// clouds with crowds far apart. A raster without holes takes no memory for its posts.
 class PostIndex {
  public:
   // `places` are distinct. Linear, where they are in order or no cell holds many.
   explicit PostIndex(const std::vector<Point>& places);
 
   // Posts have positions, from 0 on: by column of cells, then row, then place.
-  std::size_t size() const { return places_.size(); }
-  Point place(std::size_t position) const { return places_[position]; }
-  uint32_t number(std::size_t position) const { return numbers_[position]; }
-  // The y of places by position, and kReadAhead numbers more.
-  const float* rows() const { return rows_of_places_.data(); }
+  std::size_t size() const { return size_; }
+  Point place(std::size_t position) const {
+    return is_full_ ? place_in_full(position) : places_[position];
+  }
+  uint32_t number(std::size_t position) const {
+    return numbers_.empty() ? static_cast<uint32_t>(position) : numbers_[position];
+  }
+  // The y of places from a position on to the end of its run, and kReadAhead numbers more.
+  const float* rows_from(std::size_t position) const {
+    return rows_of_places_.data() + (is_full_ ? place_in_full(position).y - south_ : position);
+  }
   static constexpr std::size_t kReadAhead = 4;
 
   // Calls visit(first, last) for all positions in first .. last - 1, so that together they are
   // those of all posts in the closed counter-clockwise triangle. Each time all have the same x.
   template <class Visit>
   void visit_runs(Point a, Point b, Point c, const Visit& visit) const {
-    if (places_.empty()) return;
+    if (size_ == 0) return;
     const Outline outline(a, b, c);
     if (cell_ == 1) {
       visit_columns(outline, visit);
@@ -70,7 +77,7 @@ class PostIndex {
   template <class Visit>
   void visit_under(Point a, Point b, Point c, const Visit& visit) const {
     visit_runs(a, b, c, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) visit(numbers_[i], places_[i]);
+      for (std::size_t i = first; i < last; ++i) visit(number(i), place(i));
     });
   }
 
@@ -150,8 +157,9 @@ class PostIndex {
     for (uint32_t x = std::max<uint32_t>(outline.left().x, west_); x <= last; ++x) {
       const Outline::Span span = within_rows(outline.at(x));
       if (span.low > span.high) continue;
-      const uint32_t* const cells = first_.data() + std::size_t{x - west_} * rows_;
-      const std::size_t begin = cells[span.low - south_], end = cells[span.high - south_ + 1];
+      const std::size_t column = std::size_t{x - west_} * rows_;
+      const std::size_t begin = first_in(column + row_of(span.low));
+      const std::size_t end = first_in(column + row_of(span.high) + 1);
       if (begin != end) visit(begin, end);
     }
   }
@@ -186,6 +194,22 @@ class PostIndex {
   std::size_t cell_of(Point p) const {
     return std::size_t{(p.x - west_) / cell_} * rows_ + row_of(p.y);
   }
+  // The first position in a cell whose side is 1.
+  std::size_t first_in(std::size_t cell) const { return is_full_ ? cell : first_[cell]; }
+
+  // A position, below 2^32, divided by at most 2^16 rows. The reciprocal is too large by at most 1,
+  // so the product is too large by less than 2^-16: fractions are at least that far below 1.
+  static constexpr int kReciprocalBits = 48;
+  Point place_in_full(std::size_t position) const {
+    const auto column = static_cast<std::size_t>(
+        (Wide{static_cast<int64_t>(position)} * reciprocal_) >> kReciprocalBits);
+    return {static_cast<uint16_t>(west_ + column),
+            static_cast<uint16_t>(south_ + (position - column * rows_))};
+  }
+
+  void find_box(const std::vector<Point>& places);
+  void fill_column();
+  void sort(const std::vector<Point>& places);
   void sort_cells(const std::vector<Point>& places);
 
   static bool covers(Point a, Point b, Point c, Point p) {
@@ -196,10 +220,13 @@ class PostIndex {
   uint32_t cell_ = 1;                                     // a side
   std::size_t rows_ = 0;                                  // of cells
   bool has_crowds_ = false;
-  std::vector<Point> places_;  // by position
-  std::vector<float> rows_of_places_;
-  std::vector<uint32_t> numbers_;  // by position
-  std::vector<uint32_t> first_;    // position in each cell, and one more
+  std::size_t size_ = 0;
+  bool is_full_ = false;       // each cell has a side of 1 and a post: position and cell agree
+  int64_t reciprocal_ = 0;     // of the rows, with kReciprocalBits fractional bits; if full
+  std::vector<Point> places_;  // by position; empty if full
+  std::vector<float> rows_of_places_;  // by position; if full those of one column
+  std::vector<uint32_t> numbers_;      // by position; empty if they agree
+  std::vector<uint32_t> first_;        // position in each cell, and one more; empty if full
 };
 
 }  // namespace microtin::fit

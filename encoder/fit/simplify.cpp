@@ -153,6 +153,15 @@ Tin finished(Surface& surface, Decimation& decimation, const Tin& before,
   return std::move(found.tin);
 }
 
+Tin refined_surface(const Survey& survey, const PostIndex& posts, const SimplifyOptions& options) {
+  const bool keep_all = !options.bounded && options.max_vertices == 0;
+  Refinement refinement(survey, ErrorModel{options.bounded}, posts,
+                        keep_all ? all_of(survey.samples) : first_vertices(survey));
+  refinement.refine(options.max_vertices != 0 ? options.max_vertices
+                                              : std::numeric_limits<std::size_t>::max());
+  return refinement.tin();
+}
+
 // The vertices, and those samples that are fixed and were none.
 Tin with_fixed(const Survey& survey, const PostIndex& posts, Tin tin) {
   std::vector<Point> places = places_of(tin);
@@ -189,13 +198,8 @@ uint32_t rounds_of(Search search) {
 }
 
 Tin simplify(const Survey& survey, const SimplifyOptions& options) {
-  const bool keep_all = !options.bounded && options.max_vertices == 0;
   const PostIndex posts(places_of(survey.samples));
-  Refinement refinement(survey, ErrorModel{options.bounded}, posts,
-                        keep_all ? all_of(survey.samples) : first_vertices(survey));
-  refinement.refine(options.max_vertices != 0 ? options.max_vertices
-                                              : std::numeric_limits<std::size_t>::max());
-  Tin refined = refinement.tin();
+  Tin refined = refined_surface(survey, posts, options);
   if (!options.bounded || options.max_vertices != 0 || options.search == Search::kGreedy) {
     return refined;
   }
@@ -244,47 +248,91 @@ std::vector<int> tenths_to_try(const SimplifyOptions& options, bool has_own_boun
 
 constexpr int kOwnSteps = 4;
 
-// Lays the source out with every step that fits it.
-std::vector<Laid> lay_out_with_steps(const Source& source, LatticeOptions lattice,
-                                     const SimplifyOptions& options) {
-  // A one-sided bound leaves half the room.
-  const Decimal least = least_bound(bounds_of(source), *lattice.max_error);
-  const Decimal bound = lattice.never_below ? half(least) : least;
-  std::vector<Laid> all;
-  const std::vector<int> all_tenths = tenths_to_try(options, !bounds_of(source).empty());
-  for (const int tenths : all_tenths) {
-    if (bound.decimals >= kMaxDecimals) break;
-    lattice.z_step = make_decimal(Wide{bound.mantissa} * tenths, bound.decimals + 1);
-    try {
-      all.push_back(lay_out(source, lattice));
-    } catch (const Error&) {  // too many steps, or none where points share a place
+// A source and the steps of its heights that fit it. Only one layout is in memory at a time.
+class Layouts {
+ public:
+  Layouts(const Source& source, const LatticeOptions& lattice, const SimplifyOptions& options)
+      : source_(source), lattice_(lattice) {
+    if (options.bounded && !lattice.z_step) {
+      find_steps(options);
+    } else {
+      steps_.push_back(lattice.z_step);
     }
   }
+
+  std::size_t size() const { return steps_.size(); }
+  const Laid& operator[](std::size_t i) {
+    if (!laid_ || at_ != i) lay_out_with(steps_[i]);
+    at_ = i;
+    return *laid_;
+  }
+  Laid take(std::size_t i) {
+    (*this)[i];
+    return std::move(*laid_);
+  }
+
+ private:
+  void find_steps(const SimplifyOptions& options);
+  void try_step(Decimal step);
+  void lay_out_with(const std::optional<Decimal>& step) {
+    laid_.reset();
+    lattice_.z_step = step;
+    laid_ = lay_out(source_, lattice_);
+  }
+
+  const Source& source_;
+  LatticeOptions lattice_;
+  std::vector<std::optional<Decimal>> steps_;  // nothing: the source's own
+  std::optional<Laid> laid_;
+  std::size_t at_ = 0;  // which one that is
+};
+
+void Layouts::find_steps(const SimplifyOptions& options) {
+  // A one-sided bound leaves half the room.
+  const Decimal least = least_bound(bounds_of(source_), *lattice_.max_error);
+  const Decimal bound = lattice_.never_below ? half(least) : least;
+  const std::vector<int> all_tenths = tenths_to_try(options, !bounds_of(source_).empty());
   // The source's own step is good if it is not much smaller than the bound.
-  lattice.z_step.reset();
-  Laid own = lay_out(source, lattice);
-  const Decimal steps = make_decimal(Wide{own.z_step.mantissa} * kOwnSteps, own.z_step.decimals);
-  if (all_tenths.size() == 1 && bound <= steps) all.clear();
-  if (all.empty() || bound <= steps) all.push_back(std::move(own));
-  return all;
+  lay_out_with(std::nullopt);
+  const Decimal own = laid_->z_step;
+  const bool is_own_good = bound <= make_decimal(Wide{own.mantissa} * kOwnSteps, own.decimals);
+  if (!is_own_good || all_tenths.size() != 1) {
+    for (const int tenths : all_tenths) {
+      if (bound.decimals < kMaxDecimals)
+        try_step(make_decimal(Wide{bound.mantissa} * tenths, bound.decimals + 1));
+    }
+  }
+  if (!is_own_good && !steps_.empty()) return;
+  steps_.push_back(std::nullopt);
 }
 
-// The layout whose quick surface takes the fewest bytes, and this surface.
-Approximation cheapest(std::vector<Laid> all, const SimplifyOptions& options) {
-  std::optional<Approximation> best;
-  std::size_t fewest = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
+void Layouts::try_step(Decimal step) {
+  try {
+    lay_out_with(step);
+    at_ = steps_.size();
+    steps_.emplace_back(step);
+  } catch (const Error&) {  // too many steps, or none where points share a place
+  }
+}
+
+// The layout whose quick surface takes the fewest bytes, the first of equals, and this surface. The
+// last is in memory already.
+Approximation cheapest(Layouts& all, const SimplifyOptions& options) {
+  std::size_t fewest = 0, best = all.size();
+  Tin found;
+  for (std::size_t i = all.size(); i-- > 0;) {
     SimplifyOptions trial = options;
     trial.search = Search::kTrial;
-    const auto before = static_cast<double>(i), total = static_cast<double>(all.size());
-    trial.progress = options.progress.part(before / total, (before + 1) / total);
+    const auto after = static_cast<double>(i), total = static_cast<double>(all.size());
+    trial.progress = options.progress.part(1 - (after + 1) / total, 1 - after / total);
     Tin tin = simplify(all[i].survey, trial);
     const std::size_t bytes = encode(tin, {}, options.effort).size();
-    if (best && bytes >= fewest) continue;
+    if (best != all.size() && bytes > fewest) continue;
     fewest = bytes;
-    best = Approximation{std::move(all[i]), std::move(tin)};
+    best = i;
+    found = std::move(tin);
   }
-  return std::move(*best);
+  return {all.take(best), std::move(found)};
 }
 
 // The part of the time that looking for the step takes.
@@ -296,20 +344,15 @@ double trial_part(Search search) {
 
 Approximation approximate(const Source& source, const LatticeOptions& lattice,
                           const SimplifyOptions& options) {
-  std::vector<Laid> all;
-  if (options.bounded && !lattice.z_step) {
-    all = lay_out_with_steps(source, lattice, options);
-  } else {
-    all.push_back(lay_out(source, lattice));
-  }
+  Layouts all(source, lattice, options);
   if (all.size() == 1) {
     Tin tin = simplify(all[0].survey, options);
-    return {std::move(all[0]), std::move(tin)};
+    return {all.take(0), std::move(tin)};
   }
   const double trials = trial_part(options.search);
   SimplifyOptions part = options;
   part.progress = options.progress.part(0, trials);
-  Approximation found = cheapest(std::move(all), part);
+  Approximation found = cheapest(all, part);
   part.progress = options.progress.part(trials, 1);
   search_further(found, rounds_of(options.search), part);
   return found;

@@ -61,8 +61,8 @@ Surface::Surface(const Survey& survey, ErrorModel model, const PostIndex& posts,
 }
 
 void Surface::find_limits() {
-  middles_.reserve(posts_.size());
-  radii_.reserve(posts_.size());
+  middles_.reserve(posts_.size() + PostIndex::kReadAhead);
+  radii_.reserve(posts_.size() + PostIndex::kReadAhead);
   for (std::size_t i = 0; i < posts_.size(); ++i) {
     const auto [middle, radius] = model_.middle_and_radius(survey_.samples[posts_.number(i)]);
     middles_.push_back(static_cast<float>(middle));

@@ -18,8 +18,40 @@ constexpr Wide kOne = 65536;  // heights of samples have 16 fractional bits
 struct LaidPost {
   Point place;
   uint32_t number;  // among the source's heights
-  int64_t z;        // the source's number
 };
+
+// The source's numbers of heights.
+class HeightsOf {
+ public:
+  explicit HeightsOf(const Source& source)
+      : raster_(std::get_if<Raster>(&source)), cloud_(std::get_if<PointCloud>(&source)) {}
+
+  int64_t operator()(const LaidPost& post) const {
+    return raster_ != nullptr ? raster_->heights[post.number] : cloud_->points[post.number].z;
+  }
+
+ private:
+  const Raster* raster_;
+  const PointCloud* cloud_;
+};
+
+// Calls visit(x, y, z, number) as for_each_numbered_post does, but for each column of a raster in
+// turn: on its lattice posts come in lexicographic order then.
+template <class Visit>
+void for_each_post_by_column(const Source& source, const Visit& visit) {
+  const auto* const raster = std::get_if<Raster>(&source);
+  if (raster == nullptr) {
+    for_each_numbered_post(source, visit);
+    return;
+  }
+  for (uint32_t column = 0; column < raster->width; ++column) {
+    for (uint32_t row = 0; row < raster->height; ++row) {
+      const std::size_t number = std::size_t{row} * raster->width + column;
+      const int64_t z = raster->heights[number];
+      if (z != kNoPost) visit(int64_t{column}, int64_t{row}, z, number);
+    }
+  }
+}
 
 // The heights at a place, and the limits that their bounds leave: numerators of the lattice's map.
 struct Heights {
@@ -35,24 +67,14 @@ struct Heights {
 // The posts with heights, by place; the places of the others; how far all move.
 class Placing {
  public:
-  explicit Placing(const Lattice& lattice) : lattice_(lattice) {}
-
-  void add(int64_t x, int64_t y, int64_t z, std::size_t number) {
-    const Point place{static_cast<uint16_t>(snap(lattice_.x, x, xy_displacement_)),
-                      static_cast<uint16_t>(snap(lattice_.y, y, xy_displacement_))};
-    if (z == kVoidHeight) {
-      voids_.push_back(place);
-    } else {
-      snap(lattice_.z, z, z_displacement_);
-      posts_.push_back({place, static_cast<uint32_t>(number), z});
-    }
-  }
-
-  void sort() {
-    std::sort(posts_.begin(), posts_.end(),
-              [](const LaidPost& a, const LaidPost& b) { return a.place < b.place; });
-    std::sort(voids_.begin(), voids_.end());
-    voids_.erase(std::unique(voids_.begin(), voids_.end()), voids_.end());
+  Placing(const Lattice& lattice, const Source& source) : lattice_(lattice) {
+    const auto* const raster = std::get_if<Raster>(&source);
+    posts_.reserve(raster != nullptr ? posts_with_height(*raster)
+                                     : std::get<PointCloud>(source).points.size());
+    for_each_post_by_column(source, [this](int64_t x, int64_t y, int64_t z, std::size_t number) {
+      add(x, y, z, number);
+    });
+    sort();
   }
 
   const std::vector<LaidPost>& posts() const { return posts_; }
@@ -61,6 +83,25 @@ class Placing {
   Decimal z_displacement() const { return make_decimal(z_displacement_, lattice_.z_decimals); }
 
  private:
+  void add(int64_t x, int64_t y, int64_t z, std::size_t number) {
+    const Point place{static_cast<uint16_t>(snap(lattice_.x, x, xy_displacement_)),
+                      static_cast<uint16_t>(snap(lattice_.y, y, xy_displacement_))};
+    if (z == kVoidHeight) {
+      voids_.push_back(place);
+    } else {
+      snap(lattice_.z, z, z_displacement_);
+      posts_.push_back({place, static_cast<uint32_t>(number)});
+    }
+  }
+
+  void sort() {
+    const auto before = [](const LaidPost& a, const LaidPost& b) { return a.place < b.place; };
+    if (!std::is_sorted(posts_.begin(), posts_.end(), before))
+      std::sort(posts_.begin(), posts_.end(), before);
+    std::sort(voids_.begin(), voids_.end());
+    voids_.erase(std::unique(voids_.begin(), voids_.end()), voids_.end());
+  }
+
   static Wide snap(const LatticeMap& map, int64_t number, Wide& largest) {
     const Wide k = map.nearest(number);
     largest = std::max(largest, magnitude(map.numerator(number) - k * map.step));
@@ -80,23 +121,24 @@ int32_t saturated(Wide height) {
 // Makes samples and counts the places where the bound cannot be kept.
 class Sampler {
  public:
-  // water: the number of heights that are kept exactly.
-  Sampler(const Lattice& lattice, const LatticeOptions& options, const OwnBounds& own,
-          std::optional<int64_t> water)
-      : map_(lattice.z),
+  // Water, whose heights are kept exactly, is at the options' level.
+  Sampler(const Lattice& lattice, const LatticeOptions& options, const Source& source)
+      : height_of_(source),
+        map_(lattice.z),
         decimals_(lattice.z_decimals),
         bounded_(options.max_error.has_value()),
         is_step_asked_(options.z_step.has_value()),
         never_below_(options.never_below),
-        has_own_bounds_(!own.empty()),
+        has_own_bounds_(!bounds_of(source).empty()),
         max_error_(bounded_ ? mantissa_at(*options.max_error, decimals_) : Wide{0}),
-        bound_of_(own, options.max_error, decimals_),
-        water_(water) {}
+        bound_of_(bounds_of(source), options.max_error, decimals_),
+        water_(number_of(options.water_level, height_decimals(source))) {}
 
   void add(const LaidPost& post, Heights& heights) const {
-    heights.low = std::min(heights.low, post.z);
-    heights.high = std::max(heights.high, post.z);
-    const Wide above = bound_of_(post.number), height = map_.numerator(post.z);
+    const int64_t z = height_of_(post);
+    heights.low = std::min(heights.low, z);
+    heights.high = std::max(heights.high, z);
+    const Wide above = bound_of_(post.number), height = map_.numerator(z);
     if (above == BoundOf::kNone) return;
     heights.lowest = std::max(heights.lowest, height - (never_below_ ? 0 : above));
     heights.highest = std::min(heights.highest, height + above);
@@ -187,6 +229,7 @@ class Sampler {
     Heights heights;
   };
 
+  HeightsOf height_of_;
   const LatticeMap& map_;
   int decimals_;
   bool bounded_, is_step_asked_, never_below_, has_own_bounds_;
@@ -199,8 +242,12 @@ class Sampler {
 };
 
 std::vector<Sample> make_samples(const std::vector<LaidPost>& posts, Sampler& sampler) {
+  std::size_t places = 0;
+  for (size_t i = 0; i < posts.size(); ++i) {
+    if (i == 0 || posts[i].place != posts[i - 1].place) ++places;
+  }
   std::vector<Sample> samples;
-  samples.reserve(posts.size());
+  samples.reserve(places);
   for (size_t i = 0; i < posts.size();) {
     const Point place = posts[i].place;
     Heights heights;
@@ -322,13 +369,8 @@ Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions&
     }
   }
   if (options.never_below) refuse_unbounded(bounds_of(source));
-  Placing placing(lattice);
-  for_each_numbered_post(source, [&](int64_t x, int64_t y, int64_t z, std::size_t number) {
-    placing.add(x, y, z, number);
-  });
-  placing.sort();
-  Sampler sampler(lattice, options, bounds_of(source),
-                  number_of(options.water_level, height_decimals(source)));
+  const Placing placing(lattice, source);
+  Sampler sampler(lattice, options, source);
   Laid laid;
   laid.survey.samples = make_samples(placing.posts(), sampler);
   sampler.check(lattice.placement, source);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""scale.py MICROTIN FOLDER: time and memory of packs of large rasters, as a Markdown table.
+"""scale.py MICROTIN FOLDER: time and memory of streams and packs of large rasters, as a table.
 
 The first raster is what `fractal --size 3601` makes; the second, of 40,000 x 40,000 posts, consists
 of its mirror images side by side. Both stay in FOLDER for the next time (3.2 GB).
@@ -76,6 +76,7 @@ if not os.path.exists(MOSAIC):
 print("%d processors; peak memory of the process\n" % os.cpu_count())
 print("| 3601 x 3601 (%s), 40,000 x 40,000 (%s) | seconds | of processors | MB |" % (CELL, MOSAIC))
 print("|---|---|---|---|", flush=True)
+row("encode %s --max-error 20 -o cell.mtin" % CELL)
 row("encode %s --max-error 10 --tile-vertices 1000 -o cell.mtp" % CELL)
 row("encode %s --max-error 20 --fast --tile-vertices 1000 -o fast.mtp" % CELL)
 row("verify fast.mtp %s" % CELL)
