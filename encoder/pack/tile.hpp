@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "encoder/fit/simplify.hpp"
@@ -55,6 +56,9 @@ class TileSides {
   TileBox box_;
   uint32_t x_max_, y_max_;
 };
+
+// Throws an InternalFault: a decoded tile does what it must not.
+[[noreturn]] void fail_tile(const std::string& what);
 
 // Whether not all samples, which are in lexicographic order, lie on one line.
 bool form_triangle(const std::vector<Sample>& samples);
