@@ -34,7 +34,8 @@ void run_encode(EncodeRequest request);
 void run_plan(const EncodeRequest& request, uint32_t shards);
 
 struct UpdateRequest : EncodeRequest {
-  std::string old;  // the pack
+  std::string old;                     // the pack
+  std::optional<BoundScope> bound_at;  // where its bound is kept; nothing: where it is now
 };
 
 // Writes a pack in which only the tiles are new that the old one does not have for the terrain.

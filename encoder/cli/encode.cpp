@@ -390,7 +390,7 @@ void run_update(const UpdateRequest& request) {
   StreamSpool streams(request.output);
   const UpdatedPack updated = with_file_context(request.input, [&] {
     ProgressBar bar;
-    return update_pack(request.old, **raster, request, streams, bar.progress());
+    return update_pack(request.old, **raster, request, request.bound_at, streams, bar.progress());
   });
   write_pack(updated.content, streams, out);
   deliver(out, request.output,

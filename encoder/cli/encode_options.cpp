@@ -280,6 +280,14 @@ void add_update(CLI::App& app, Action& action) {
   add_output(command, request->output, "Write this pack (.mtp); - is standard output");
   add_terrain(command, request->input, request->preparation);
   add_error_map(command, request->preparation, "elsewhere the pack's bound holds");
+  const auto read_scope = [request](const std::string& text) {
+    if (text == "everywhere") request->bound_at = BoundScope::kEverywhere;
+    if (text == "points") request->bound_at = BoundScope::kTruePlaces;
+    return request->bound_at.has_value();
+  };
+  add_read(command, "--bound-at points|everywhere", read_scope, "points or everywhere",
+           "Keep the pack's bound at posts, or between them, too")
+      ->default_str("everywhere if the pack's margins are within the bound, or over obstacles");
   add_obstacles(command, request->preparation);
   add_number(command, "--tile-vertices N", request->tile_vertices, kFewestTileVertices,
              "Let new tiles have at most N vertices each", uint32_t{kMaxVertices})

@@ -67,13 +67,14 @@ bool is_kept_everywhere(const PackFile& pack) {
 }
 
 // What the pack states of its tiles.
-LatticeOptions options_of(const PackFile& pack) {
+LatticeOptions options_of(const PackFile& pack, std::optional<BoundScope> bound_at) {
   const Metadata& stated = pack.metadata();
   LatticeOptions options;
   options.max_error = stated.bounds ? stated.bounds->max_error : stated.accuracy->bound;
   options.never_below = stated.side == BoundSide::kNeverBelow;
   options.water_level = stated.water_level;
-  if (is_kept_everywhere(pack)) options.bound_at = BoundScope::kEverywhere;
+  if (bound_at) options.bound_at = *bound_at;
+  if (!bound_at && is_kept_everywhere(pack)) options.bound_at = BoundScope::kEverywhere;
   return options;
 }
 
@@ -91,10 +92,11 @@ Effort effort_of(const PackFile& pack, Effort effort) {
   return effort;
 }
 
-PackOptions pack_options(const PackFile& old, const EncodeOptions& asked) {
+PackOptions pack_options(const PackFile& old, const EncodeOptions& asked,
+                         std::optional<BoundScope> bound_at) {
   refuse_options_of_streams(asked);
   EncodeOptions options = asked;
-  options.lattice = options_of(old);
+  options.lattice = options_of(old, bound_at);
   options.effort = effort_of(old, asked.effort);
   const uint32_t vertices =
       std::max(kFewestTileVertices,
@@ -140,14 +142,14 @@ std::optional<Decimal> max_error_of_map(const std::string& pack) {
 }
 
 UpdatedPack update_pack(const std::string& old_path, const RasterReader& raster,
-                        const EncodeOptions& options, StreamSpool& streams,
-                        const Progress& progress) {
+                        const EncodeOptions& options, std::optional<BoundScope> bound_at,
+                        StreamSpool& streams, const Progress& progress) {
   const PackFile old = open_pack_of_raster(old_path);
   expect_posts_of(raster.frame(), old);
   expect_same_system(old.metadata(), completed(raster.frame().reference));
   expect_same_map(old.metadata(), raster.frame());
   expect_water_level(old_path, old.metadata().water_level, options.lattice.water_level);
-  const PackOptions stated = pack_options(old, options);
+  const PackOptions stated = pack_options(old, options, bound_at);
   const RasterScan scanned =
       scan(raster, stated.lattice.max_error, false, progress.part(0, kScanned));
   PackPlan plan = plan_of(old, raster, stated, scanned);

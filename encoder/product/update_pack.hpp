@@ -29,6 +29,9 @@ std::optional<Decimal> max_error_of_map(const std::string& pack);
 // others by the bound, side, water level, lattice and coding of the old pack. Borders between new
 // tiles and kept ones stay. Reads the raster twice.
 //
+// `bound_at`: whether the bound is kept between posts, too. If it is nothing, it is kept there if
+// the old pack shows that it is: over obstacles, and if its margins are within the bound.
+//
 // The options set the notes, the search and `tile_vertices` alone. A new tile has at most
 // `tile_vertices` vertices. If that is 0, a new tile has no more vertices, and no more bytes in
 // compact form, than the old pack states for any tile: devices that hold the old tiles hold it.
@@ -37,8 +40,8 @@ std::optional<Decimal> max_error_of_map(const std::string& pack);
 // are not a raster's. Throws Error if the raster has other posts, units or systems, if its heights
 // are beyond the lattice, if a new tile is too large, or if an option is for streams.
 UpdatedPack update_pack(const std::string& old, const RasterReader& raster,
-                        const EncodeOptions& options, StreamSpool& streams,
-                        const Progress& progress);
+                        const EncodeOptions& options, std::optional<BoundScope> bound_at,
+                        StreamSpool& streams, const Progress& progress);
 
 }  // namespace microtin::product
 

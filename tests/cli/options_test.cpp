@@ -155,6 +155,7 @@ const std::vector<OptionRow> kOptionRows = {
     {"update", "--tile-vertices", "s.mtp peak.asc -o o.mtp", "16"},
     {"update", "--best", "m.mtp peak.asc --tile-vertices 300 -o o.mtp", ""},
     {"update", "--error-map", "bounded.mtp t.asc -o o.mtp", "bounds.geojson"},
+    {"update", "--bound-at", "m.mtp peak.asc --tile-vertices 300 -o o.mtp", "everywhere"},
     {"update", "--obstacles", "tower.mtp t.asc --tile-vertices 300 -o o.mtp", "tower.geojson"},
     {"update", "--fill-voids", "s.mtp t.asc --tile-vertices 300 -o o.mtp", "1"},
     {"update", "--date", "s.mtp t.asc -o o.mtp", "2026"},

@@ -272,6 +272,17 @@ TEST_CASE("bound everywhere: an update keeps it, and leaves an unchanged pack as
   CHECK(compare(session.folder() + "/t.mtp", changed, same(9)).largest_excess <= kRounding);
 }
 
+TEST_CASE("bound everywhere: a pack that keeps it by chance can be updated without it") {
+  const Session session;
+  write_raster(session, "t.asc", [](int column, int row) { return 50 + (column + row) % 2; });
+  REQUIRE(session.run("encode t.asc --units metre --max-error 9 --z-step 1 -o old.mtp").code == 0);
+  write_raster(session, "t.asc",
+               [](int column, int row) { return column == 7 && row == 9 ? 200 : 50; });
+  const std::string update = "update old.mtp t.asc --units metre --tile-vertices 900 -o t.mtp";
+  CHECK(contains(session.failure(update), "--bound-at points"));
+  CHECK(session.run(update + " --bound-at points").code == 0);
+}
+
 TEST_CASE("bound everywhere: refused where cells bend too much, naming the worst, and for points") {
   const Session session;
   const PostHeight spike = [](int column, int row) { return column == 7 && row == 9 ? 90 : 5; };

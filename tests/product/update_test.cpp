@@ -63,7 +63,8 @@ class OldPack {
     const std::string path = folder_ / "new.mtp";
     OutputFile out(path);
     StreamSpool streams(path);
-    const UpdatedPack updated = update_pack(path_, RasterInMemory(raster), options, streams, {});
+    const UpdatedPack updated =
+        update_pack(path_, RasterInMemory(raster), options, {}, streams, {});
     out.write(write_pack_head(updated.content));
     streams.copy_to(out);
     out.commit();
