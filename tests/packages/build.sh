@@ -52,7 +52,15 @@ case $kind in
     $cxx "$build/consumer.o" "$build/library.o" -o "$build/consumer"
     "$build/consumer"
     ;;
-  esp-idf) with_cmake esp_idf ;;
+  esp-idf)
+    with_cmake esp_idf
+    if cmake -S "$here/stand_ins/esp_idf" -B "$build/older" -G Ninja -DCMAKE_C_COMPILER="$c" -DCMAKE_CXX_COMPILER="$cxx" \
+      -DPACKAGE="$library" -DCONSUMER="$consumer" -DIDF_VERSION_MAJOR=4 -DIDF_VERSION_MINOR=3 >"$build/log" 2>&1; then
+      echo "ESP-IDF 4.3 is not refused"
+      exit 1
+    fi
+    grep -q 'ESP-IDF 4.4 or later; this is 4.3' "$build/log"
+    ;;
   zephyr)
     for python in python3 /usr/bin/python3 none; do
       $python -c 'import kconfiglib' 2>/dev/null && break
