@@ -158,7 +158,7 @@ class Options(unittest.TestCase):
         "max_bytes": ({"effort": "fast"}, "--fast", {900: "--max-bytes 900"}),
     }
     OF_PACKS = {"tile_vertices", "tile_size"}
-    FILES = {"area", "route", "route_width", "breaklines", "obstacles"}
+    FILES = {"area", "route", "route_width", "route_edge_error", "breaklines", "obstacles"}
     ELSEWHERE = {"progress", "numbers", "error_map"} | FILES
 
     def points(self):
@@ -232,6 +232,8 @@ class Options(unittest.TestCase):
             self.assertEqual((~numpy.isnan(inside)).sum(), 19 * 19)
             near, _ = microtin.decode(microtin.encode(heights, 2, route=line, route_width=4)).raster()
             self.assertTrue(0 < (~numpy.isnan(near)).sum() < 19 * 19)
+            loose = microtin.encode(heights, 2, route=line, route_width=12, route_edge_error=9)
+            self.assertEqual((loose.report.least_bound, loose.report.largest_bound), (2, 9))
             plain = microtin.encode(heights, 2)
             self.assertNotEqual(bytes(microtin.encode(heights, 2, breaklines=line)), bytes(plain))
             raised = microtin.decode(microtin.encode(heights, 2, obstacles=tower))
