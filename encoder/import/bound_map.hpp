@@ -28,7 +28,7 @@ class BoundMap {
   // Takes polygons with a bound each, outside of which `max_error` is the bound.
   BoundMap(const std::string& name, std::vector<Feature> polygons, const Decimal& max_error);
 
-  // Adds such polygons to what the map has.
+  // Adds polygons with a bound each.
   void add(std::vector<Feature> polygons);
 
   // Cells along an axis: first > last where there are none.

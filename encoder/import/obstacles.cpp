@@ -137,7 +137,7 @@ int64_t number_of(Decimal height, int decimals) {
 // Posts that obstacles raise, by number, each with its height.
 using RaisedPosts = std::vector<std::pair<std::size_t, int64_t>>;
 
-// Finds the posts that obstacles raise, and how high. Reads what they touch alone.
+// Finds the posts that obstacles raise, and how high. Reads only the ground that obstacles touch.
 class Raising {
  public:
   explicit Raising(const RasterReader& ground) : ground_(ground), frame_(ground.frame()) {}
@@ -156,8 +156,8 @@ class Raising {
   RaisedPosts take() { return {heights_.begin(), heights_.end()}; }
 
  private:
-  // The ground of a part of an obstacle, in rectangles of few rows: calls visit(cell, posts, ground
-  // of posts) with those posts of each cell that have heights.
+  // Reads the ground of cells in rectangles of few rows, and calls visit(posts) for each cell, with
+  // those of its posts that have heights.
   template <class Visit>
   void visit_cells(const std::vector<std::size_t>& cells, const Visit& visit) const {
     constexpr std::size_t kRows = 64;
@@ -265,7 +265,7 @@ class Slopes {
     if (!has_own) bounds_.numbers.assign(raster.heights.size(), max_error.mantissa);
   }
 
-  // A raised post, which may lie beside the raster.
+  // Takes a raised post into account. It may lie outside the raster.
   void add(int64_t column, int64_t row, int64_t height) {
     const auto width = static_cast<int64_t>(raster_.width);
     for (int64_t dy = 1 - kSlopePosts; dy < kSlopePosts; ++dy) {

@@ -13,7 +13,7 @@
 namespace microtin::pack {
 namespace {
 
-constexpr uint32_t kBeside = 2;  // posts beside a line: one, and one more for its own limits
+constexpr uint32_t kBeside = 2;  // posts on each side: the strip's, and those its limits depend on
 
 // The survey of posts that all have the limits of vertices.
 Survey survey_of_vertices(const TiledRaster& tiled, const EverywhereBound& bound,
@@ -82,8 +82,8 @@ void BorderStrip::pin_ends(std::vector<LinePost>& on_line) {
   limit(last - 1, on_line[last - 1]);
 }
 
-// The chain, and the posts beside it on one side, but for those next to its ends, which may lie on
-// other borders.
+// The vertices of the chain, and the nearest posts on one side of the line. The posts next to the
+// line's ends are left out: they may lie on other borders.
 Survey BorderStrip::strip_survey(const std::vector<ChainVertex>& chain, int side) const {
   const auto across = [&](Point p) {
     return is_row_ ? int64_t{p.y} - (int64_t{line_.y} - box_.y)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A border between tiles with the posts beside it, for a bound that holds between posts, too.
+// Makes borders with which both tiles can keep a bound between their posts, too.
 #ifndef MICROTIN_ENCODER_PACK_BORDER_STRIP_HPP
 #define MICROTIN_ENCODER_PACK_BORDER_STRIP_HPP
 
@@ -47,7 +47,7 @@ class BorderStrip {
   std::vector<bool> pinned_;  // posts of the line
 };
 
-// Makes a sample the vertex that both sides of a border expect at a post beside it.
+// Fixes a post next to a border at the height that a BorderStrip assumes.
 void pin_height(Sample& sample);
 
 }  // namespace microtin::pack

@@ -36,17 +36,17 @@ class TileFit {
   const Raster& part() const { return part_; }
   Placement lattice() const { return {part_.x, part_.y, tiled_.lattice.placement.z}; }
 
-  // Whether a stream can hold it.
+  // Whether a stream can hold the tile: its samples do not lie on one line.
   bool forms_triangle() const { return form_triangle(survey_.samples); }
 
-  // Whether it does. Throws Error if it does not, and posts of it lie on no border, so that no
-  // other tile holds them.
+  // Whether the tile has a triangle. Throws Error if not, and posts of the tile lie on no border,
+  // so that no other tile holds them.
   bool has_terrain() const;
 
-  // One that keeps the options at posts, and maybe not between them.
+  // A surface that keeps the options at posts, and maybe not between them.
   Tin first(const SimplifyOptions& options) const { return simplify(survey_, options); }
 
-  // One that keeps all. Throws Error as encode_tile does.
+  // A surface that keeps all options, measured. Throws Error as encode_tile does.
   FittedTile fit(const SimplifyOptions& options);
 
  private:

@@ -262,6 +262,8 @@ importing::Preparation preparation_of(const Options& options) {
   expect(options.route.empty() == options.route_width.empty(), base::parameter("route") + " and " +
                                                                    base::parameter("route_width") +
                                                                    " go together; set both");
+  expect(options.route_edge_error.empty() || !options.route.empty(),
+         base::parameter("route_edge_error") + " needs " + base::parameter("route"));
   importing::Preparation preparation;
   preparation.max_error = decimal_of("max_error", options.max_error);
   preparation.error_map = options.error_map;

@@ -30,15 +30,16 @@ inline bool is_bound_everywhere(const LatticeOptions& options) {
   return options.bound_at == BoundScope::kEverywhere && options.max_error;
 }
 
-// The options within which a surface is fitted at posts first, so that few places between them are
-// missed: those given, if their bound is one for posts alone.
+// The options of a first fit, which looks at posts alone. They have a part of a bound that holds
+// everywhere, so that few places between posts are missed. Other options stay as they are.
 LatticeOptions first_fit(const LatticeOptions& options);
 
 // Throws Error if the posts of a raster are not at equal distances: between others there is no
 // bilinear surface.
 void expect_equal_distances(const Raster& raster);
 
-// Throws the Error that a bound cannot be kept around so many posts.
+// Throws Error: the bound is missed around `missed` posts. The message has the cell that bends
+// most, and what helps.
 [[noreturn]] void refuse_everywhere(const Raster& raster, const LatticeOptions& options,
                                     uint64_t missed);
 
@@ -60,7 +61,7 @@ class EverywhereBound {
   // Those that all surfaces seen ask for, in the order of places.
   std::vector<Tightening> tightenings() const;
 
-  // Those of a post that becomes a vertex; one height if a cell around it bends too much.
+  // The limits of a post that becomes a vertex: one height if a cell around it bends too much.
   Tightening vertex_limits(std::size_t post) const;
 
  private:

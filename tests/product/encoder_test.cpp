@@ -427,6 +427,9 @@ TEST_CASE("library: what makes no sense is refused with a sentence") {
   options = {};
   options.never_below = true;
   CHECK(error_of(posts, options) == "never_below needs max_error or max_bytes");
+  options = bounded("1");
+  options.route_edge_error = "9";
+  CHECK(error_of(posts, options) == "route_edge_error needs route");
   options = {};
   options.date = "yesterday";
   CHECK(error_of(posts, options) ==

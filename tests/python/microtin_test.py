@@ -240,6 +240,8 @@ class Options(unittest.TestCase):
             self.assertGreaterEqual(raised.height_at([10], [10])[0], microtin.decode(plain).height_at([10], [10])[0] + 45)
             with self.assertRaisesRegex(microtin.Error, "route and route_width go together"):
                 microtin.encode(heights, 2, route=line)
+            with self.assertRaisesRegex(microtin.Error, "route_edge_error needs route"):
+                microtin.encode(heights, 2, route_edge_error=9)
             with self.assertRaisesRegex(microtin.Error, "obstacles needs max_error"):
                 microtin.encode(heights, obstacles=tower)
             path = os.path.join(folder, "a.mtp")
