@@ -14,6 +14,7 @@ import sys
 import textwrap
 from pathlib import Path
 
+import boards
 import stack
 
 HERE = Path(__file__).parent
@@ -498,7 +499,15 @@ def summary(budget):
     return table(head, rows)
 
 
-DOCUMENTS = {ROOT / "shared/docs/sizes.md": footprint, ROOT / "README.md": summary}
+def boards_table(budget):
+    return table(boards.HEAD, boards.rows(budget))
+
+
+DOCUMENTS = {
+    ROOT / "shared/docs/sizes.md": footprint,
+    ROOT / "README.md": summary,
+    ROOT / "decoder/docs/boards.md": boards_table,
+}
 MARKED = re.compile(r"(<!-- footprint: .* -->\n\n)(.*?)(\n<!-- end of footprint -->)", re.S)
 
 

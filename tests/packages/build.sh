@@ -28,7 +28,7 @@ with_cmake() {
 
 case $kind in
   arduino)
-    need arduino-builder avr-g++ simavr
+    need arduino-builder avr-g++ simavr arm-none-eabi-g++
     hardware=/usr/share/arduino/hardware
     [ -d $hardware/arduino/avr ] || { echo "skipped: arduino-core-avr is not installed"; exit 77; }
     for sketch in "$library"/examples/*/*.ino; do
@@ -40,6 +40,20 @@ case $kind in
         -libraries "$packages/arduino" -build-path "$build/$name" "$sketch" >"$build/log" 2>&1 ||
         { cat "$build/log"; exit 1; }
       echo "$name: $(grep -o 'uses [0-9]* bytes' "$build/log" | head -1)"
+    done
+    mkdir "$build/uno"
+    if arduino-builder -compile -hardware $hardware -hardware /usr/share/arduino-builder -tools /usr/bin \
+      -fqbn arduino:avr:uno -prefs compiler.cpp.extra_flags=-DDECIMAL_DIG=__DECIMAL_DIG__ \
+      -libraries "$packages/arduino" -build-path "$build/uno" "$library/examples/Height/Height.ino" \
+      >"$build/log" 2>&1; then
+      echo "an Uno is not refused"
+      exit 1
+    fi
+    grep 'error "microtin needs 48 KB of flash' "$build/log"
+    # Cores for Arm compile with C++11 (samd, Adafruit's nrf52) or later standards.
+    for standard in gnu++11 gnu++14 gnu++17; do
+      arm-none-eabi-g++ -mcpu=cortex-m0plus -mthumb -Os -Wall -Wextra -Wpedantic -Werror -std=$standard -I"$library/src" \
+        -c "$library/src/microtin.cpp" -o "$build/library.o"
     done
     timeout 10 simavr -m atmega2560 -f 16000000 "$build/Height/Height.ino.elf" >"$build/said" 2>&1 || true
     grep -o '6 vertices, height 25' "$build/said"

@@ -10,6 +10,11 @@ from pathlib import Path
 
 SEMANTIC = r"(0|[1-9]\d*)\.(0|[1-9]\d*)\.(0|[1-9]\d*)"
 HERE = Path(__file__).resolve().parent
+BUDGET = json.loads((HERE.parent / "footprint/budget.json").read_text())
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(HERE.parent / "footprint"))
+
+import boards  # noqa: E402
 
 
 class Faults(list):
@@ -39,6 +44,20 @@ def common(library):
     return faults
 
 
+def least_flash(library, faults):
+    """The limit of board.cpp refuses the AVR boards that do not fit, and no others."""
+    [last] = re.findall(r"FLASHEND < 0x([0-9A-F]+)", (library / "src/board.cpp").read_text())
+    for fault in boards.faults_of_limit(BUDGET, int(last, 16) + 1):
+        faults.append(fault)
+
+
+def names_boards(given, fitting, faults):
+    """A library that does not link on small boards must not name them, nor leave out those on which it fits."""
+    given = set(given)
+    faults.unless(given <= fitting, f"no board that fits: {', '.join(sorted(given - fitting))}")
+    faults.unless(fitting <= given, f"boards that fit are not named: {', '.join(sorted(fitting - given))}")
+
+
 def arduino(folder):
     """Arduino's library specification, 1.5 format (arduino.github.io/arduino-cli, "Library specification"), and what
     arduino-lint asks beyond it of the library manager's entries."""
@@ -49,8 +68,8 @@ def arduino(folder):
     fields = dict(line.split("=", 1) for line in lines if "=" in line)
     for name in ("name", "version", "author", "maintainer", "sentence", "paragraph", "category", "url", "architectures"):
         faults.unless(fields.get(name, "").strip(), f"{name} is missing")
-    # A library that does not link on small boards must not claim all of them.
-    faults.unless(fields.get("architectures") != "*", "architectures promises every board")
+    names_boards(fields.get("architectures", "").split(","), boards.architectures(BUDGET), faults)
+    least_flash(library, faults)
     name = fields.get("name", "")
     faults.unless(re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9 _.-]{0,62}", name), "the name has other characters")
     faults.unless("arduino" not in name.lower(), "the name speaks of Arduino")
@@ -88,6 +107,8 @@ def platformio(folder):
     faults.unless(all(re.fullmatch(r"[a-z0-9 ._-]{1,50}", word) for word in keywords), "a keyword is not small")
     faults.unless(manifest.get("license") == "MIT", "the licence is not the project's, by its SPDX name")
     faults.unless(all("name" in author for author in manifest.get("authors", [])), "an author without a name")
+    names_boards(manifest.get("platforms", []), boards.platforms(BUDGET), faults)
+    least_flash(library, faults)
     build = manifest.get("build", {})
     places = {"flags", "unflags", "includeDir", "srcDir", "srcFilter", "extraScript", "libArchive", "libLDFMode",
               "libCompatMode", "builder"}  # fmt: skip
