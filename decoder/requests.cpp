@@ -142,7 +142,9 @@ void grow_older(microtin_requests& r) {
     if (request.rest != 0) --request.rest;
     if (!request.is_set || i < kOther) continue;
     if (request.waits != 0xFFFF) ++request.waits;
-    if (++request.age > MICROTIN_REQUEST_LIFE) request.is_set = 0;
+    const uint8_t age = static_cast<uint8_t>(request.age + 1);
+    request.age = age;
+    if (age > MICROTIN_REQUEST_LIFE) request.is_set = 0;
   }
 }
 

@@ -60,8 +60,9 @@
 #endif
 
 // Where a table of some KB is cheaper than a division, and a copy of some KB of code cheaper than a
-// call (ROOMY_IN_PLACE).
-#if (defined(__x86_64__) || defined(__aarch64__)) && !defined(__OPTIMIZE_SIZE__)
+// call (ROOMY_IN_PLACE). The tables are made by constructors with loops, which C++11 lacks.
+#if (defined(__x86_64__) || defined(__aarch64__)) && !defined(__OPTIMIZE_SIZE__) && \
+    __cplusplus >= 201402L
 #define MICROTIN_LARGE_TABLES
 #define MICROTIN_ROOMY_IN_PLACE MICROTIN_IN_PLACE inline
 #else

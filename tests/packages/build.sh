@@ -51,7 +51,7 @@ case $kind in
     fi
     grep 'error "microtin needs 48 KB of flash' "$build/log"
     # Cores for Arm compile with C++11 (samd, Adafruit's nrf52) or later standards.
-    for standard in gnu++11 gnu++14 gnu++17; do
+    for standard in gnu++11 gnu++14 gnu++17 gnu++20 gnu++23; do
       arm-none-eabi-g++ -mcpu=cortex-m0plus -mthumb -Os -Wall -Wextra -Wpedantic -Werror -std=$standard -I"$library/src" \
         -c "$library/src/microtin.cpp" -o "$build/library.o"
     done
@@ -60,8 +60,9 @@ case $kind in
     ;;
   platformio)
     # Sources of srcDir, headers of includeDir, for each of the frameworks' standards.
-    $cxx -std=gnu++14 -c -I"$library/src" "$library/src/microtin.cpp" -o "$build/library.o"
-    $cxx -std=gnu++17 -c -I"$library/src" "$library/src/microtin.cpp" -o "$build/library.o"
+    for standard in gnu++11 gnu++14 gnu++17 gnu++20; do
+      $cxx -O2 -std=$standard -Wall -Wextra -Werror -c -I"$library/src" "$library/src/microtin.cpp" -o "$build/library.o"
+    done
     $c -c -I"$library/src" "$consumer" -o "$build/consumer.o"
     $cxx "$build/consumer.o" "$build/library.o" -o "$build/consumer"
     "$build/consumer"
