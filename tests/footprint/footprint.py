@@ -74,6 +74,11 @@ ONE_SOURCE_USES = {
 }
 # What is measured of the decoder that switches of config.h make smaller.
 SWITCH_USES = {"decoding": DECODING, "queries": DECODING + QUERIES}
+# What is measured with hooks for a lock. What has no packs must not change.
+LOCK_USES = {use: USES[use] for use in ("pack", "pack_queries", "compact_pack", "compact_pack_queries", "requests")}
+LOCKLESS_USES = {use: entries for use, entries in USES.items() if "pack" not in use and use != "requests"}
+ADAPTERS = ("inav", "ardupilot")
+LOADING = r"_(load|load_card|check)$"  # functions of adapters that call the firmware's own, for a task that may wait
 MOST_OF_CLANG = 1.2  # times gcc's bytes
 MOST_OF_ONE_SOURCE = 1.04  # times the instructions of separate sources
 WIDTH_IN_NAME = ["read_stream_info", "mesh_init", "decoder_init", "buckets_init", "compactor_init", "pack_init",
@@ -90,8 +95,12 @@ def symbol(options, entry):
 
 def link(options, library, entries, image):
     """Links what some entries need of a library, the compiler's helpers included, and nothing else."""
-    names = [symbol(options, entry) for entry in entries]
-    command = [*options.compiler.split(), "-nostdlib", "-Wl,--gc-sections", library, "-o", image]
+    link_names(options, [library], [symbol(options, entry) for entry in entries], image)
+
+
+def link_names(options, files, names, image):
+    """Links what functions need of objects and libraries."""
+    command = [*options.compiler.split(), "-nostdlib", "-Wl,--gc-sections", *files, "-o", image]
     if options.target == "wasm32":
         command += ["-fuse-ld=lld", "-Wl,--no-entry,--allow-undefined,--strip-all"]
         command += ["-Wl,--export=" + name for name in names]
@@ -147,6 +156,38 @@ def measure_switches(options):
         result[combination] = measure_uses(options, library, SWITCH_USES)
         link(options, library, DECODING, image)
         result[combination]["stack_decoding"] = depth_of(options, stack_of(options, objects, image), DECODING)
+    return result
+
+
+def symbols_of(options, path, section):
+    """Names and sizes of the global symbols of an object that are in a section."""
+    run = subprocess.run([options.objdump, "-t", path], check=True, capture_output=True, text=True)
+    found = re.findall(rf"^[0-9a-f]+ g .{{5}} {section}\S*\t([0-9a-f]+) (\w+)$", run.stdout, re.M)
+    return {name: int(size, 16) for size, name in found}
+
+
+def measure_adapter(options, path, ram, image):
+    """One adapter: its own code, what it links of the decoder and of the compiler's helpers, and its stack."""
+    names = list(symbols_of(options, path, ".text"))
+    link_names(options, [path, options.Os], names, image)
+    graphs = [str(Path(o).with_suffix(".ci")) for o in [path, *options.objects[options.Os].split(":")]]
+    calls = stack.Stack(options.target, options.objdump, image, graphs, has_callbacks=True)
+    loading = [name for name in names if re.search(LOADING, name)]
+    return {
+        "own": section_bytes(options, path), "linked": section_bytes(options, image), "ram": ram,
+        "stack_loading": max(calls.depth(name) for name in loading),
+        "stack_queries": max(calls.depth(name) for name in names if name not in loading),
+    }  # fmt: skip
+
+
+def measure_adapters(options):
+    result = {}
+    for form, objects in (given.split("=") for given in options.adapters):
+        paths = {Path(path).name.split(".")[0]: path for path in objects.split(":")}
+        ram = symbols_of(options, paths["adapter_ram"], ".bss")
+        image = str(options.build / "linked")
+        result[form] = {a: measure_adapter(options, paths[a], ram["ram_" + a], image) for a in ADAPTERS}
+        result[form] |= {name: ram[name] for name in ("ram_card", "ram_pack")}
     return result
 
 
@@ -210,6 +251,10 @@ def measure(options):
             result[level]["run"] = measure_images(options, level)
     if options.switches:
         result["switches"] = measure_switches(options)
+    if options.adapters:
+        result["adapters"] = measure_adapters(options)
+    if options.locks:
+        result["locks"] = measure_uses(options, options.locks, LOCK_USES)
     if options.clang_object:
         result["one_source"] = {
             "clang_version": version(options.clang),
@@ -226,6 +271,10 @@ def bytes_of(sizes):
 def keeps_bounds(options, measured):
     """Whether the decoder in one source keeps its bounds; prints which it does not."""
     broken = []
+    if options.locks:
+        for use, sizes in measure_uses(options, options.locks, LOCKLESS_USES).items():
+            if sizes != measured["Os"][use]:
+                broken.append(f"{use}: {bytes_of(sizes)} bytes with hooks for a lock, {bytes_of(measured['Os'][use])} without")
     sizes = measured.get("one_source")
     for use in ONE_SOURCE_USES if sizes else []:
         gcc, clang = bytes_of(sizes["gcc"][use]), bytes_of(sizes["clang"][use])
@@ -442,6 +491,60 @@ def switches_table(budget):
     return table(head, rows)
 
 
+ADAPTER_TITLES = {"inav": "INAV", "ardupilot": "ArduPilot"}
+SLOT_TITLES = {"meshes": "meshes", "compact": "compact"}
+
+
+def adapter_rows(numbers):
+    for adapter, title in ADAPTER_TITLES.items():
+        for form, slots in SLOT_TITLES.items():
+            one = numbers["adapters"][form][adapter]
+            yield [title, slots, code_cell(one["own"]), code_cell(one["linked"]),
+                   *(count(one[name]) for name in ("ram", "stack_loading", "stack_queries"))]  # fmt: skip
+
+
+ADAPTER_HEAD = ["adapter", "slots", "its own code + constants", "with decoder and helpers", "RAM, its state",
+                "stack, loading", "stack, queries"]  # fmt: skip
+
+
+def adapters_table(budget):
+    """For all targets, and the pack's memory apart."""
+    rows = [[target, *row] for target, numbers in budget.items() if "adapters" in numbers for row in adapter_rows(numbers)]
+    return table(["target", *ADAPTER_HEAD], rows)
+
+
+PACK_WORK = {
+    "height": "a height in nine tiles: mean, worst",
+    "highest": "extremes on a segment through nine tiles: mean, worst",
+    "worst_call": "loading, the most expensive call of one work unit",
+    "worst_call_20": "loading, the most expensive call of 20 work units",
+    "tile": "loading a tile of 64 vertices from flash",
+}
+
+
+def autopilots_table(budget):
+    """Bytes on a Cortex-M7, with the memory of the pack that the page's glue makes, and instructions."""
+    forms, run = budget["cortex-m7"]["adapters"], budget["cortex-m7"]["Os"]["run"]
+    rows = [[*row, count(forms[row[1]]["ram_pack"])] for row in adapter_rows(budget["cortex-m7"])]
+    work = []
+    for name, title in PACK_WORK.items():
+        ends = ("_mean", "_worst") if title.endswith("mean, worst") else ("",)
+        kinds = ("pack_", "compact_pack_")
+        work.append([title, *(", ".join(count(run[kind + name + end]) for end in ends) for kind in kinds)])
+    text = "Instructions on a Cortex-M7 at -Os, counted under emulation. Instructions are not cycles."
+    bytes_taken = table([*ADAPTER_HEAD, "RAM, nine slots of 356 vertices"], rows)
+    return f"{bytes_taken}\n{paragraph(text)}\n{table(['instructions', 'slots of meshes', 'compact slots'], work)}"
+
+
+def locks_table(budget):
+    rows = []
+    for target, numbers in budget.items():
+        if "locks" in numbers:
+            pairs = [(bytes_of(numbers["Os"][use]), bytes_of(numbers["locks"][use])) for use in LOCK_USES]
+            rows.append([target, *(f"{count(most - least)} of {count(least)}" for least, most in pairs)])
+    return table(["target", *(USE_TITLES[use] for use in LOCK_USES)], rows)
+
+
 def paragraph(text):
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
 
@@ -477,6 +580,17 @@ def footprint(budget):
             "The decoder in one source (`decoder/amalgamate.py`) on a Cortex-M4 at -Os, linked alike by both compilers. "
             f"The clang is {sizes['clang_version']}; Keil's compiler is built on clang.", one_source_table(sizes),
         ))  # fmt: skip
+    sections.append(section(
+        "What do the adapters for autopilots take?",
+        "Bytes of the adapters of `decoder/adapters` at -Os, with floating point by the compiler's helpers. Slots are those "
+        "of the pack. The stack of the firmware's read callback and card driver is not counted.", adapters_table(budget),
+    ))  # fmt: skip
+    sections.append(section(
+        "What do hooks for a lock cost?",
+        "Bytes of code that `MICROTIN_PACK_ENTER` and `MICROTIN_PACK_LEAVE` add at -Os, and the bytes without them. The "
+        "lock itself is not counted. Without the hooks nothing is added. With them, programs without packs keep their size: "
+        "the test `footprint` compares both.", locks_table(budget),
+    ))  # fmt: skip
     compilers = "; ".join(sorted({numbers["compiler"] for numbers in budget.values()}))
     sections.append("## Which compilers were used?\n\n" + paragraph(f"{compilers}."))
     return "\n".join(sections)
@@ -507,6 +621,7 @@ DOCUMENTS = {
     ROOT / "shared/docs/sizes.md": footprint,
     ROOT / "README.md": summary,
     ROOT / "decoder/docs/boards.md": boards_table,
+    ROOT / "decoder/docs/autopilots.md": autopilots_table,
 }
 MARKED = re.compile(r"(<!-- footprint: .* -->\n\n)(.*?)(\n<!-- end of footprint -->)", re.S)
 
@@ -535,6 +650,8 @@ def arguments():
     one.add_argument("--run", help="the emulator's command")
     one.add_argument("--counting", help="its options for counting")
     one.add_argument("--switches", action="append", default=[], help="COMBINATION=LIBRARY=OBJECTS")
+    one.add_argument("--adapters", action="append", default=[], help="FORM=OBJECTS")
+    one.add_argument("--locks", help="the library with hooks for a lock")
     one.add_argument("--one-source", help="the library made of one source")
     one.add_argument("--clang", help="the compiler")
     one.add_argument("--clang-object", help="what it makes of that source")

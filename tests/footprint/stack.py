@@ -96,7 +96,9 @@ def known_frames(call_graphs):
 
 
 class Stack:
-    def __init__(self, target, objdump, image, call_graphs):
+    def __init__(self, target, objdump, image, call_graphs, has_callbacks=False):
+        """With callbacks, calls through pointers are of the firmware's own functions and not counted."""
+        self.has_callbacks = has_callbacks
         self.processor = next(p for name, p in PROCESSORS if target.startswith(name))
         self.known = known_frames(call_graphs)
         self.before, self.loaded, self.returned = "", [0, 0], False
@@ -108,7 +110,8 @@ class Stack:
         name = None
         for line in disassembly.splitlines():
             if head := re.match(r"[0-9a-f]+ <(.*)>:$", line):
-                if name and head[1].startswith(name + "_"):  # a label within a helper
+                # A label within a helper; the compiler's own functions have a frame in its files.
+                if name and head[1].startswith(name + "_") and head[1] not in self.known:
                     self.inside[head[1]] = name
                     continue
                 name = head[1]
@@ -137,7 +140,7 @@ class Stack:
             self.before = ""
         if name not in self.known and re.match(self.processor.unknown, code):
             self.trouble[name] = "a frame of unknown size: " + code
-        if re.match(self.processor.indirect, code):
+        if re.match(self.processor.indirect, code) and not self.has_callbacks:
             self.trouble[name] = "an indirect call: " + code
         target = re.search(r"<([^+>]*)>", code)
         if target and re.match(self.processor.call, code):
