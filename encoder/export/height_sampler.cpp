@@ -76,8 +76,8 @@ class PackSampler {
 
   // A height that any tile has counts, then that one is bad, then that none has terrain there.
   ExactAnswer height_at(const RealPlace& place) {
-    const Range columns = tiles(place.x, place.x_part, grid_.width, tile_columns(grid_));
-    const Range rows = tiles(place.y, place.y_part, grid_.height, tile_rows(grid_));
+    const TileSpan columns = tiles_with(place.x, place.x_part, grid_.width, tile_columns(grid_));
+    const TileSpan rows = tiles_with(place.y, place.y_part, grid_.height, tile_rows(grid_));
     ExactAnswer worst{MICROTIN_QUERY_VOID, {0, 0, 1}};
     for (uint32_t row = rows.first; row <= rows.last; ++row) {
       for (uint32_t column = columns.first; column <= columns.last; ++column) {
@@ -96,9 +96,6 @@ class PackSampler {
   }
 
  private:
-  struct Range {
-    uint32_t first, last;
-  };
   struct Tile {
     explicit Tile(std::optional<DecodedTerrain> decoded)
         : terrain(std::move(decoded)), sampler(terrain ? terrain->mesh() : nullptr) {}
@@ -111,13 +108,6 @@ class PackSampler {
 
     uint32_t vertices() const { return terrain ? microtin_mesh_vertex_count(terrain->mesh()) : 0; }
   };
-
-  // On a border two tiles have a say.
-  static Range tiles(int64_t whole, Wide part, uint32_t side, uint32_t count) {
-    const auto last = static_cast<uint32_t>(std::min<int64_t>(whole / side, count - 1));
-    const bool is_border = part == 0 && last != 0 && whole == int64_t{last} * side;
-    return {is_border ? last - 1 : last, last};
-  }
 
   Tile& tile_of(uint32_t number) {
     Tile& tile = known_tile(number);
@@ -177,6 +167,12 @@ class PackSampler {
 };
 
 }  // namespace
+
+TileSpan tiles_with(int64_t whole, Wide part, uint32_t side, uint32_t count) {
+  const auto last = static_cast<uint32_t>(std::min<int64_t>(whole / side, count - 1));
+  const bool is_border = part == 0 && last != 0 && whole == int64_t{last} * side;
+  return {is_border ? last - 1 : last, last};
+}
 
 SampledSurface sampled(const microtin_mesh* mesh) {
   SampledSurface surface;

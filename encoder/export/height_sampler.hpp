@@ -31,6 +31,12 @@ struct SampledSurface {
   std::function<TileMesh(uint32_t tile)> mesh_of;
 };
 
+// The tiles of a row, or of a column, that have a coordinate on it: one or, on a border, two.
+struct TileSpan {
+  uint32_t first, last;
+};
+TileSpan tiles_with(int64_t whole, Wide part, uint32_t side, uint32_t count);
+
 // The mesh must outlive it.
 SampledSurface sampled(const microtin_mesh* mesh);
 

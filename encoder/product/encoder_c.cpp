@@ -491,6 +491,18 @@ microtin_status microtin_surface_heights(microtin_surface* surface, uint64_t cou
   });
 }
 
+microtin_status microtin_surface_gradients(microtin_surface* surface, uint64_t count,
+                                           const double* x, const double* y, double* east,
+                                           double* north) {
+  return guarded([&] {
+    expect(surface);
+    if (count == 0) return;
+    for (const double* const numbers : {x, y}) expect(numbers);
+    for (double* const numbers : {east, north}) expect(numbers);
+    surface->surface.gradients(count, x, y, east, north);
+  });
+}
+
 microtin_status microtin_surface_profile(microtin_surface* surface, double x, double y,
                                          double x_end, double y_end, microtin_profile* profile) {
   return guarded([&] {

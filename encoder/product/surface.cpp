@@ -13,8 +13,11 @@
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/lattice_map.hpp"
+#include "encoder/exact/units.hpp"
+#include "encoder/export/gradient.hpp"
 #include "encoder/export/grid.hpp"
 #include "encoder/export/profile.hpp"
+#include "encoder/export/scene.hpp"
 #include "encoder/product/document.hpp"
 #include "encoder/stream/header.hpp"
 #include "encoder/verify/everywhere.hpp"
@@ -133,6 +136,8 @@ struct Surface::Content {
       : document(std::move(read)), sampled(document.sampled()), info(info_of()) {}
 
   SurfaceInfo info_of() const;
+  template <class Visit>
+  void for_places(size_t count, const double* x, const double* y, const Visit& visit) const;
   double height(const exact::RealPlace& place) const;
   uint32_t tile_at(int64_t x, int64_t y) const;
 
@@ -183,6 +188,34 @@ SurfaceInfo Surface::Content::info_of() const {
 double Surface::Content::height(const exact::RealPlace& place) const {
   const terrain::ExactAnswer found = sampled.height_at(place);
   return found.kind == MICROTIN_QUERY_OK ? exact::real_height(info.z, found.height) : kNone;
+}
+
+// Calls visit(i, place) for the positions that the surface may have. Those of a tile come one after
+// another, so that each tile is decoded once.
+template <class Visit>
+void Surface::Content::for_places(size_t count, const double* x, const double* y,
+                                  const Visit& visit) const {
+  struct Query {
+    uint32_t tile;
+    size_t index;
+    exact::RealPlace place;
+  };
+  const BinaryNames on_x(sampled);
+  const exact::BinaryAxis on_y(sampled.placement.y, sampled.y_min, sampled.y_max);
+  std::vector<Query> queries;
+  for (size_t i = 0; i < count; ++i) {
+    const auto px = on_x(x[i]), py = on_y(y[i]);
+    if (!px || !py) continue;
+    const exact::RealPlace place = exact::place_of(*px, *py);
+    if (document.pack() == nullptr) {
+      visit(i, place);
+    } else {
+      queries.push_back({tile_at(place.x, place.y), i, place});
+    }
+  }
+  std::stable_sort(queries.begin(), queries.end(),
+                   [](const Query& a, const Query& b) { return a.tile < b.tile; });
+  for (const Query& query : queries) visit(query.index, query.place);
 }
 
 // A tile near the place.
@@ -264,30 +297,34 @@ Grid Surface::grid(const std::string& cell) const {
 }
 
 void Surface::heights(size_t count, const double* x, const double* y, double* heights) const {
-  const exporting::SampledSurface& s = content_->sampled;
-  struct Query {
-    uint32_t tile;
-    size_t index;
-    exact::RealPlace place;
+  std::fill(heights, heights + count, kNone);
+  content_->for_places(count, x, y, [&](size_t i, const exact::RealPlace& place) {
+    heights[i] = content_->height(place);
+  });
+}
+
+void Surface::gradients(size_t count, const double* x, const double* y, double* east,
+                        double* north) const {
+  const SurfaceInfo& all = content_->info;
+  const auto metres = [](Unit unit) {
+    return exact::metres_per(static_cast<exact::Unit>(unit)).value_or(1);
   };
-  const BinaryNames on_x(s);
-  const exact::BinaryAxis on_y(s.placement.y, s.y_min, s.y_max);
-  std::vector<Query> queries;
-  for (size_t i = 0; i < count; ++i) {
-    heights[i] = kNone;
-    const auto px = on_x(x[i]), py = on_y(y[i]);
-    if (!px || !py) continue;
-    const exact::RealPlace place = exact::place_of(*px, *py);
-    if (content_->document.pack() == nullptr) {
-      heights[i] = content_->height(place);
+  const double rise = exact::step_of(all.z) * metres(all.vertical_unit);
+  std::fill(east, east + count, kNone);
+  std::fill(north, north + count, kNone);
+  exporting::GradientSearch search;
+  content_->for_places(count, x, y, [&](size_t i, const exact::RealPlace& place) {
+    const auto found = exporting::gradient_at(content_->sampled, place, search);
+    if (!found) return;
+    exporting::Degree unit = {1, 1};
+    if (all.horizontal_unit == Unit::kDegree) {
+      unit = exporting::degree_at(y[i]);
     } else {
-      queries.push_back({content_->tile_at(place.x, place.y), i, place});
+      unit.x = unit.y = metres(all.horizontal_unit);
     }
-  }
-  // So that each tile is decoded once.
-  std::stable_sort(queries.begin(), queries.end(),
-                   [](const Query& a, const Query& b) { return a.tile < b.tile; });
-  for (const Query& query : queries) heights[query.index] = content_->height(query.place);
+    east[i] = found->x * rise / (exact::step_of(all.x) * unit.x);
+    north[i] = found->y * rise / (exact::step_of(all.y) * unit.y);
+  });
 }
 
 Profile Surface::profile(const Position& from, const Position& to) const {

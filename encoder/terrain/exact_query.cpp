@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 #include <utility>
 
 namespace microtin::terrain {
@@ -29,6 +30,8 @@ class Seen {
   bool holds_place() const {
     return kind != MICROTIN_TRIANGLE_GHOST && side[0] >= 0 && side[1] >= 0 && side[2] >= 0;
   }
+
+  const std::array<Vertex, 3>& corners() const { return corner_; }
 
   microtin_triangle_kind kind;
   // Twice the area that the edge from corner i spans with the place, times its parts: below 0 if
@@ -64,7 +67,7 @@ class Seen {
   }
 
   const RealPlace& place_;
-  Vertex corner_[3]{};
+  std::array<Vertex, 3> corner_{};
 };
 
 // From a ghost to the triangle inside, whose neighbours are not all ghosts with it.
@@ -134,6 +137,26 @@ ExactAnswer exact_answer(const microtin_mesh* mesh, const RealPlace& place, uint
     }
     return {MICROTIN_QUERY_OK, seen.height()};
   }
+}
+
+std::vector<std::array<Vertex, 3>> triangles_at(const microtin_mesh* mesh, const RealPlace& place,
+                                                uint32_t hint) {
+  std::vector<std::array<Vertex, 3>> found;
+  std::vector<uint32_t> next = {hint};
+  std::set<uint32_t> met = {hint};
+  while (!next.empty()) {
+    const uint32_t triangle = next.back();
+    next.pop_back();
+    const Seen seen(mesh, triangle, place);
+    if (!seen.holds_place()) continue;
+    if (seen.kind == MICROTIN_TRIANGLE_REAL) found.push_back(seen.corners());
+    for (uint32_t i = 0; i < 3; ++i) {
+      if (seen.side[i] != 0) continue;
+      const uint32_t other = microtin_mesh_neighbour(mesh, triangle, i);
+      if (met.insert(other).second) next.push_back(other);
+    }
+  }
+  return found;
 }
 
 }  // namespace microtin::terrain

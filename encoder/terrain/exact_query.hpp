@@ -4,7 +4,9 @@
 #ifndef MICROTIN_ENCODER_TERRAIN_EXACT_QUERY_HPP
 #define MICROTIN_ENCODER_TERRAIN_EXACT_QUERY_HPP
 
+#include <array>
 #include <cstdint>
+#include <vector>
 
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/layers.hpp"
@@ -29,6 +31,12 @@ struct ExactAnswer {
 // most `step_limit` triangles (0: without a limit) and leaves in *hint where it ended.
 ExactAnswer exact_answer(const microtin_mesh* mesh, const RealPlace& place, uint32_t step_limit,
                          uint32_t* hint);
+
+// The corners of the triangles with terrain that hold a place: one, or all around an edge or a
+// vertex where the place lies. `hint` is where exact_answer ended for the place. O(d log d) for d
+// triangles.
+std::vector<std::array<Vertex, 3>> triangles_at(const microtin_mesh* mesh, const RealPlace& place,
+                                                uint32_t hint);
 
 }  // namespace microtin::terrain
 

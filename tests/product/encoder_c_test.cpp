@@ -178,6 +178,12 @@ void expect_same_heights(const Both& both) {
   REQUIRE(microtin_surface_heights(both.c, x.size(), x.data(), y.data(), found.data()) ==
           MICROTIN_STATUS_OK);
   CHECK(is_same(expected, found));
+  std::vector<double> expected_north(x.size()), north(x.size());
+  both.cpp.gradients(x.size(), x.data(), y.data(), expected.data(), expected_north.data());
+  REQUIRE(microtin_surface_gradients(both.c, x.size(), x.data(), y.data(), found.data(),
+                                     north.data()) == MICROTIN_STATUS_OK);
+  CHECK(is_same(expected, found));
+  CHECK(is_same(expected_north, north));
 }
 
 }  // namespace

@@ -358,6 +358,10 @@ TEST_CASE("C: an array goes to a stream and back" * microtin::tests::kSlow) {
   CHECK(microtin_surface_heights(surface, 1, &height, &height, nullptr) ==
         MICROTIN_STATUS_REJECTED);
   CHECK(microtin_surface_heights(surface, 0, nullptr, nullptr, nullptr) == MICROTIN_STATUS_OK);
+  CHECK(microtin_surface_gradients(surface, 1, &height, &height, &height, nullptr) ==
+        MICROTIN_STATUS_REJECTED);
+  CHECK(microtin_surface_gradients(surface, 0, nullptr, nullptr, nullptr, nullptr) ==
+        MICROTIN_STATUS_OK);
   microtin_surface_free(surface);
   microtin_bytes_free(bytes);
   CHECK(microtin_surface_from_file("/nowhere/a.mtin", &surface) == MICROTIN_STATUS_REJECTED);

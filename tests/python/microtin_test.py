@@ -378,6 +378,22 @@ class Profiles(unittest.TestCase):
         self.assertEqual(beyond.missing, "outside")
         self.assertEqual(list(numpy.isnan(beyond.heights(5))), [False, False, False, True, True])
 
+    def test_slopes(self):
+        xs = numpy.array([[200.0, 495.0], [505.0, -1.0]])
+        east, north = self.tin.gradient_at(xs, 50)
+        numpy.testing.assert_allclose(east, [[0, 5], [-5, numpy.nan]], atol=1e-12)
+        numpy.testing.assert_allclose(north, [[0, 0], [0, numpy.nan]], atol=1e-12)
+        steep = numpy.degrees(numpy.arctan(5))
+        numpy.testing.assert_allclose(self.tin.slope_at(xs, 50), [[0, steep], [steep, numpy.nan]])
+        numpy.testing.assert_allclose(self.tin.aspect_at(xs, 50), [[numpy.nan, 270], [90, numpy.nan]])
+        self.assertEqual(self.tin.gradient_at(200, 50), (0.0, 0.0))
+        self.assertIsInstance(self.tin.slope_at(495, 50), float)
+        self.assertIsInstance(self.tin.aspect_at(495, 50), float)
+        plane = microtin.decode(microtin.encode_points([(0, 0, 0), (10, 0, 0), (0, 10, 10), (10, 10, 10)], 0.01, units="metre"))
+        self.assertEqual(plane.aspect_at(4, 3), 180)
+        turned = microtin.decode(microtin.encode_points([(0, 0, 9), (9, 0, 9), (0, 9, 0), (9, 9, 0)], 0.01, units="metre"))
+        self.assertEqual(turned.aspect_at(4, 3), 0)
+
     def test_lines_of_sight(self):
         masts = [(0, 0, 49), (0, 0, 51), (0, 0, 80)]
         found = self.tin.line_of_sight(masts, (1000, 0, 51), earth_factor=numpy.inf, frequency=868)

@@ -276,6 +276,12 @@ microtin_status microtin_surface_tile_margins(const microtin_surface* surface, u
 microtin_status microtin_surface_heights(microtin_surface* surface, uint64_t count, const double* x,
                                          const double* y, double* heights);
 
+/* Writes the gradients at `count` positions, metres of rise for a metre east and for a metre north;
+ * NaN where there is none. See Surface::gradients for the slope, the aspect and the rules. */
+microtin_status microtin_surface_gradients(microtin_surface* surface, uint64_t count,
+                                           const double* x, const double* y, double* east,
+                                           double* north);
+
 /* --- Profiles and lines of sight ---
  *
  * profile.hpp defines the terms and units; encoder/docs/profiles.md has the model and its error. */

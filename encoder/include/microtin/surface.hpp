@@ -173,6 +173,16 @@ class Surface {
    */
   void heights(size_t count, const double* x, const double* y, double* heights) const;
 
+  /* Writes the gradients at `count` positions: how many metres the surface rises for each metre
+   * east, and for each metre north; NaN where there is none. The slope is the arctangent of
+   * hypot(east, north). The aspect, in which direction the surface falls, is atan2(-east, -north),
+   * clockwise from north. A gradient is that of the exact triangle at the position. On an edge or a
+   * vertex it is that of the triangle whose centre lies farthest east, and of those with the same x
+   * farthest north, as on devices. A degree has its length at the position; a unit that is not
+   * known counts as the metre. A vertex among voids has a height, but no gradient. Costs some two
+   * heights. */
+  void gradients(size_t count, const double* x, const double* y, double* east, double* north) const;
+
   /* A position in the surface's coordinates. */
   struct Position {
     double x = 0, y = 0;

@@ -636,13 +636,36 @@ class Surface:
     def height_at(self, xs: ArrayLike, ys: ArrayLike) -> Any:
         """Heights of the exact plane at places: an array of the shape that xs and ys have together, or a float for two numbers. NaN outside
         and in voids. About 0.3 us each, and the decoding of the tiles that are needed."""
+        return self._at(library.microtin_surface_heights, xs, ys, 1)[0]
+
+    def gradient_at(self, xs: ArrayLike, ys: ArrayLike) -> Tuple[Any, Any]:
+        """How many metres the surface rises for each metre east, and for each metre north, at places as for `height_at`. NaN
+        outside, in voids and at a vertex among voids. The gradient is that of the exact triangle; on an edge or a vertex it
+        is that of the triangle whose centre lies farthest east, and of those with the same x farthest north."""
+        east, north = self._at(library.microtin_surface_gradients, xs, ys, 2)
+        return east, north
+
+    def slope_at(self, xs: ArrayLike, ys: ArrayLike) -> Any:
+        """How steep the surface is at places, in degrees: 0 is level. NaN where there is no gradient; see `gradient_at`."""
+        slope = numpy.degrees(numpy.arctan(numpy.hypot(*self.gradient_at(xs, ys))))
+        return slope if numpy.ndim(slope) else float(slope)
+
+    def aspect_at(self, xs: ArrayLike, ys: ArrayLike) -> Any:
+        """In which direction the surface falls at places, in degrees clockwise from north, 0 <= aspect < 360. NaN where it is
+        level, and where there is no gradient; see `gradient_at`."""
+        east, north = self.gradient_at(xs, ys)
+        aspect = numpy.degrees(numpy.arctan2(numpy.negative(east), numpy.negative(north)))
+        aspect = numpy.where(numpy.hypot(east, north) == 0, numpy.nan, aspect % 360)
+        return aspect if numpy.ndim(aspect) else float(aspect)
+
+    def _at(self, write: Callable[..., None], xs: ArrayLike, ys: ArrayLike, numbers: int) -> Sequence[Any]:
         x, y = numpy.broadcast_arrays(*(numpy.asarray(places, numpy.float64) for places in (xs, ys)))
         x, y = numpy.ascontiguousarray(x), numpy.ascontiguousarray(y)
-        heights = numpy.empty(x.shape)
-        pointers = (places.ctypes.data_as(_library.Doubles) for places in (x, y, heights))
+        found = [numpy.empty(x.shape) for _ in range(numbers)]
+        pointers = (places.ctypes.data_as(_library.Doubles) for places in (x, y, *found))
         with self._lock:
-            library.microtin_surface_heights(self._surface, x.size, *pointers)
-        return heights if numpy.ndim(xs) or numpy.ndim(ys) else float(heights.reshape(-1)[0])
+            write(self._surface, x.size, *pointers)
+        return found if numpy.ndim(xs) or numpy.ndim(ys) else [float(number.reshape(-1)[0]) for number in found]
 
     def profile(self, begin: ArrayLike, end: ArrayLike) -> Profile:
         """The heights along the straight line between two positions (x, y), which may lie outside. In degrees the line takes

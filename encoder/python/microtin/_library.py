@@ -247,6 +247,7 @@ _FUNCTIONS = {
     "surface_tile": [c_void_p, c_uint32, c_uint32, POINTER(Triangles)],
     "surface_tile_margins": [c_void_p, c_uint32, c_uint32, POINTER(TileMargins)],
     "surface_heights": [c_void_p, c_uint64, Doubles, Doubles, Doubles],
+    "surface_gradients": [c_void_p, c_uint64, Doubles, Doubles, Doubles, Doubles],
     "surface_profile": [c_void_p, c_double, c_double, c_double, c_double, POINTER(Profile)],
     "surface_lines_of_sight": [c_void_p, c_uint64, Doubles, POINTER(SightOptions), POINTER(Sights)],
     "surface_grid": [c_void_p, c_char_p, POINTER(Grid)],
