@@ -26,6 +26,27 @@ test("heights at every post keep the bound", { skip }, async () => {
   }
 });
 
+test("a gradient in a tile is that of its triangle, and none is outside", { skip }, async () => {
+  const pack = await Pack.open(bytes);
+  const [left, bottom, right, top] = pack.tileBox(0);
+  const { axes } = pack.header;
+  let found = 0;
+  for (let i = 1; i < 40; ++i) {
+    const [x, y] = [left + ((right - left) * i) / 40.3, bottom + ((top - bottom) * ((7 * i) % 40)) / 40.7];
+    const { east, north } = await pack.gradientAt(x, y);
+    const [dx, dy] = [axes.x.step / 16, axes.y.step / 16];
+    const heights = [];
+    for (const [a, b] of [[0, 0], [1, 0], [0, 1], [-1, 0], [0, -1]]) heights.push(await pack.heightAt(x + a * dx, y + b * dy));
+    const straight = (a, b) => Math.abs(heights[a] + heights[b] - 2 * heights[0]) < 1e-4 * axes.z.step;
+    if (!straight(1, 3) || !straight(2, 4)) continue; // more than one triangle
+    ++found;
+    const unit = (d, rise) => Math.abs(d - rise) < 0.02 * (1 + Math.abs(rise));
+    assert.ok(unit(east, (heights[1] - heights[3]) / (2 * dx)) && unit(north, (heights[2] - heights[4]) / (2 * dy)));
+  }
+  assert.ok(found > 5);
+  assert.deepEqual(await pack.gradientAt(left - 1e6, bottom), { east: NaN, north: NaN });
+});
+
 test("a profile through tiles has their heights, in order, and says what is not known", { skip }, async () => {
   const pack = await Pack.open(bytes);
   const [left, bottom, right, top] = [...pack.tileBox(0).slice(0, 2), ...pack.tileBox(pack.columns * pack.rows - 1).slice(2)];

@@ -168,6 +168,46 @@ test("every damaged byte is told, and the module goes on", () => {
   assert.equal(decode(bytes).vertexCount, 6);
 });
 
+// Metres of a unit of x and y at a place, and of a unit of heights.
+function metresOf({ units }, y) {
+  const feet = { "international foot": 0.3048, "US survey foot": 1200 / 3937 };
+  const other = feet[units?.horizontal] ?? 1;
+  const radian = Math.PI / 180, sine = Math.sin(y * radian), square = 0.0066943799901413;
+  const root = Math.sqrt(1 - square * sine * sine), equator = 6378137 * radian;
+  const [x, north] = units?.horizontal === "degree"
+    ? [(equator * Math.cos(y * radian)) / root, (equator * (1 - square)) / root ** 3]
+    : [other, other];
+  return { x, y: north, z: feet[units?.vertical] ?? 1 };
+}
+
+test("a gradient is that of the triangle, in metres for a metre", () => {
+  let found = 0;
+  for (const name of goldenNames) {
+    const terrain = decode(goldenBytes(name));
+    for (let i = 0; i < terrain.indices.length; i += 3 * Math.ceil(terrain.indices.length / 300)) {
+      const [a, b, c] = [0, 1, 2].map((k) =>
+        [0, 1, 2].map((axis) => terrain.positions[3 * terrain.indices[i + k] + axis]));
+      const [bx, by, bz, cx, cy, cz] = [...b.map((v, k) => v - a[k]), ...c.map((v, k) => v - a[k])];
+      const area = bx * cy - cx * by, { axes } = terrain.header;
+      const [sx, sy] = [axes.x.step, axes.y.step];
+      const longest = Math.max(...[[bx, by], [cx, cy], [bx - cx, by - cy]].map(([x, y]) => Math.hypot(x / sx, y / sy)));
+      if (area / sx / sy < longest) continue; // thin, and the middle is rounded to 1/256 of a step
+      const y = terrain.origin[1] + (a[1] + b[1] + c[1]) / 3;
+      const { east, north } = terrain.gradientAt(terrain.origin[0] + (a[0] + b[0] + c[0]) / 3, y);
+      const metres = metresOf(terrain.header, y);
+      const expected = [(bz * cy - cz * by) / area / metres.x, (bx * cz - cx * bz) / area / metres.y];
+      for (const [is, should] of [[east, expected[0]], [north, expected[1]]]) {
+        assert.ok(Math.abs(is - should * metres.z) <= 1e-3 * (Math.abs(should * metres.z) + 1e-3), `${name} ${is} ${should}`);
+      }
+      ++found;
+    }
+    assert.deepEqual(terrain.gradientAt(NaN, 0), { east: NaN, north: NaN });
+    assert.deepEqual(terrain.gradientAt(-1e12, 0), { east: NaN, north: NaN });
+    assert.throws(() => terrain.gradientAt(0), TypeError);
+  }
+  assert.ok(found > 100);
+});
+
 test("a profile has the heights of the terrain, in order, and its ends", () => {
   for (const name of goldenNames) {
     const terrain = decode(goldenBytes(name));

@@ -87,6 +87,14 @@ export interface Mesh {
   voids: Uint32Array;
 }
 
+/** How many metres the terrain rises for each metre east, and for each metre north; NaN where it has no slope. A degree
+ * has its length at the place; a unit that is not known counts as the metre. The slope is Math.atan(Math.hypot(east,
+ * north)), the direction of steepest descent Math.atan2(-east, -north), clockwise from north. */
+export interface Gradient {
+  east: number;
+  north: number;
+}
+
 /** A place of a profile: an end of the line, a vertex on it, or where it crosses an edge. */
 export interface ProfilePlace {
   /** The part of the line before the place, 0 to 1. */
@@ -115,6 +123,10 @@ export interface Terrain extends Mesh {
   /** The height at a real place; NaN outside, for NaN and infinities, or where the terrain is not known. Voids are known
    * once all is decoded. @throws TypeError if an argument is not a number */
   heightAt(x: number, y: number): number;
+  /** The gradient of the triangle at a real place; NaN where there is no height. On an edge or a vertex it is that of the
+   * triangle whose centre lies farthest east, and of those with the same x farthest north. @throws TypeError if an
+   * argument is not a number */
+  gradientAt(x: number, y: number): Gradient;
   /** The places along the straight line between two real places, each rounded to 1/256 of a step; empty if an end lies
    * outside the lattice, for NaN and infinities, or until all is decoded. @throws TypeError if an argument is not a number */
   profile(x: number, y: number, xEnd: number, yEnd: number): ProfilePlace[];
@@ -193,6 +205,8 @@ export class Pack {
   /** The height at a real place; NaN outside, for NaN and infinities, or where the terrain is not known.
    * @throws MicrotinError if the tile is damaged */
   heightAt(x: number, y: number): Promise<number>;
+  /** The gradient at a real place, as that of a {@link Terrain}. @throws MicrotinError if the tile is damaged */
+  gradientAt(x: number, y: number): Promise<Gradient>;
   /** The exact greatest height on the straight segment; NaN if a part of it lies outside or where nothing is
    * known. @throws MicrotinError if a tile is damaged, RangeError if the segment touches more than 255 tiles */
   segmentMax(x: number, y: number, xEnd: number, yEnd: number): Promise<number>;

@@ -2,6 +2,7 @@
 // A terrain in tiles, of which those are read that are asked for.
 
 import { checkInteger, checkNumber } from "./check.js";
+import { noGradient, realGradient } from "./gradient.js";
 import { axesAt, canHold, everywhereAt, notesAt, toLattice } from "./header.js";
 import { Instance, ready } from "./instance.js";
 import { placesAlong } from "./profile.js";
@@ -194,6 +195,13 @@ export class Pack {
       calls.microtin_pack_height_at(this.#pack, ...place.map(BigInt), results, results + 4));
   }
 
+  async gradientAt(x, y) {
+    const place = this.#place(x, y);
+    return this.#ask([...place, ...place], ({ calls, results }) =>
+      calls.microtin_pack_gradient_at(this.#pack, ...place.map(BigInt), results, results + 8),
+    (instance) => realGradient(instance, instance.results + 8, this.header, y), noGradient());
+  }
+
   async segmentMax(x, y, xEnd, yEnd) {
     return this.#ask([...this.#place(x, y), ...this.#place(xEnd, yEnd)], ({ calls, results }) =>
       calls.microtin_pack_segment_extremes(this.#pack, this.#segment, results + 4));
@@ -211,19 +219,21 @@ export class Pack {
     });
   }
 
-  // The height that a query on a segment finds behind the second result. Both ends are within the pack, and so is all
-  // between them, or there is none.
-  #ask(segment, query) {
+  #height(instance) {
+    const { z } = this.header.axes;
+    return z.start + (instance.view.getInt32(instance.results + 4, true) / 65536) * z.step;
+  }
+
+  // What a query on a segment finds: the height behind the second result, or what read() makes of the results. Both ends
+  // are within the pack, and so is all between them, or there is none.
+  #ask(segment, query, read = (instance) => this.#height(instance), none = NaN) {
     return this.#alone(async () => {
-      if (segment.some(Number.isNaN)) return NaN;
+      if (segment.some(Number.isNaN)) return none;
       this.#putSegment(segment);
       const status = await this.#serve();
       const answer = query(this.#instance);
-      const { z } = this.header.axes;
-      if (answer === FOUND) {
-        return z.start + (this.#instance.view.getInt32(this.#instance.results + 4, true) / 65536) * z.step;
-      }
-      if (answer === OUTSIDE || answer === VOID) return NaN;
+      if (answer === FOUND) return read(this.#instance);
+      if (answer === OUTSIDE || answer === VOID) return none;
       throw status === BAD_TILES ? this.#badTile(segment) : new MicrotinError(-1, { where: `answer ${answer}` });
     });
   }

@@ -2,6 +2,7 @@
 // A terrain, and its decoding from a stream.
 
 import { checkBytes } from "./check.js";
+import { noGradient, realGradient } from "./gradient.js";
 import { axesAt, canHold, everywhereAt, notesAt, toLattice } from "./header.js";
 import { Instance, ready } from "./instance.js";
 import { placesAlong } from "./profile.js";
@@ -90,6 +91,16 @@ export class Terrain {
     if (Number.isNaN(i + j)) return NaN;
     const answer = calls.microtin_mesh_height_at(this.#mesh, i, j, results + HINT, results + HINT + 4, 0, 0);
     return answer ? NaN : axes.z.start + (view.getInt32(results + HINT + 4, true) / 65536) * axes.z.step;
+  }
+
+  gradientAt(x, y) {
+    const { calls, results } = this.#instance;
+    const { axes } = this.header;
+    const [i, j] = [toLattice(axes.x, MOST, x), toLattice(axes.y, MOST, y)];
+    if (Number.isNaN(i + j)) return noGradient();
+    const [hint, at] = [results + HINT, results + HINT + 8];
+    const answer = calls.microtin_mesh_gradient_at(this.#mesh, i, j, hint, at, 0, 0);
+    return answer ? noGradient() : realGradient(this.#instance, at, this.header, y);
   }
 
   profile(x, y, xEnd, yEnd) {
