@@ -60,7 +60,7 @@ case $kind in
     ;;
   platformio)
     # Sources of srcDir, headers of includeDir, for each of the frameworks' standards.
-    for standard in gnu++11 gnu++14 gnu++17 gnu++20; do
+    for standard in c++11 gnu++11 gnu++14 gnu++17 gnu++20; do
       $cxx -O2 -std=$standard -Wall -Wextra -Werror -c -I"$library/src" "$library/src/microtin.cpp" -o "$build/library.o"
     done
     $c -c -I"$library/src" "$consumer" -o "$build/consumer.o"

@@ -11,7 +11,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 BASE, PACKAGE, BUILD = Path(os.environ["ZEPHYR_BASE"]), Path(sys.argv[1]), Path(sys.argv[2])
-STANDARDS = {"STD_CPP14": 14, "STD_CPP17": 17, "STD_CPP20": 20}
+STANDARDS = {"STD_CPP11": 11, "STD_CPP14": 14, "STD_CPP17": 17, "STD_CPP20": 20}
 MOST_GENERATED = 50  # files
 
 sys.path.insert(0, str(BASE / "scripts/kconfig"))
@@ -51,17 +51,17 @@ def configuration():
 
 
 def chosen(config):
-    """Sets what the command line has, and returns the C++ standard. C++ itself and C++14 are needed."""
+    """Sets what the command line has, and returns the C++ standard. C++ itself and C++11 are needed."""
     symbols = config.syms
     cpp = "CPP" if "CPP" in symbols and symbols["CPP"].nodes else "CPLUSPLUS"
     module = symbols["MICROTIN"]
     module.set_value("y")
     unless(module.str_value == "n", "MICROTIN does not need C++")
     symbols[cpp].set_value("y")
+    symbols["STD_CPP98"].set_value("y")
+    unless(module.str_value == "n", "C++98 is enough")
     symbols["STD_CPP11"].set_value("y")
-    unless(module.str_value == "n", "C++11 is enough")
-    symbols["STD_CPP14"].set_value("y")
-    unless(module.str_value == "y", f"{cpp} and STD_CPP14 do not suffice")
+    unless(module.str_value == "y", f"{cpp} and STD_CPP11 do not suffice")
     for choice in sys.argv[3:]:
         name, value = choice.split("=")
         symbols[name].set_value(value)
@@ -77,4 +77,4 @@ unless(not warnings, "; ".join(warnings))
 lines = [f"set(CONFIG_{s.name} {s.str_value})\n" for s in config.unique_defined_syms
          if s.name.startswith("MICROTIN") and s.str_value == "y"]  # fmt: skip
 (BUILD / "config.cmake").write_text("".join(lines) + f"set(STANDARD {standard})\n")
-print(f"{len(config.unique_defined_syms)} symbols of Zephyr; the module needs {cpp} and C++14: " + " ".join(sys.argv[3:]))
+print(f"{len(config.unique_defined_syms)} symbols of Zephyr; {cpp} chooses the module, C++{standard}: " + " ".join(sys.argv[3:]))

@@ -29,6 +29,6 @@ if symbols["MICROTIN"].str_value != "y":
     sys.exit("rejected: MICROTIN is not there where C++ is CPLUSPLUS")
 
 # What the module needs of C++ is asked for.
-config.syms["STD_CPP11"].set_value("y")
+config.syms["STD_CPP98"].set_value("y")
 if config.syms["MICROTIN"].str_value != "n":
-    sys.exit("rejected: C++11 is enough")
+    sys.exit("rejected: C++98 is enough")
