@@ -22,13 +22,14 @@ inline void set_value(int which, int32_t height, const Along& along,
   state->whole[which] = along.whole;
 }
 
-// An edge needs no division if neither end is higher, or lower, than all heights so far.
+// An edge needs no division if neither end is higher, or lower, than all heights so far. The first
+// height is both, also the lowest that there can be: INT32_MIN.
 MICROTIN_ONE_COPY inline void add_to_extremes(const Crossing& c, microtin_segment_state* state) {
   if (c.answer != MICROTIN_QUERY_OK) return;
   const int32_t highest = state->value[kHighest], lowest = state->value[kLowest];
   if (c.height <= highest && c.other <= highest && c.height >= lowest && c.other >= lowest) return;
   const int32_t height = height_of(c);
-  if (height > highest) set_value(kHighest, height, c.along, state);
+  if (height > highest || lowest == INT32_MAX) set_value(kHighest, height, c.along, state);
   if (height < lowest) set_value(kLowest, height, c.along, state);
 }
 
@@ -49,7 +50,7 @@ inline int32_t place_of_value(int which, const microtin_segment_state& state) {
 }
 
 inline void get_extremes(const microtin_segment_state& state, microtin_segment_extremes* extremes) {
-  if (state.value[kHighest] == INT32_MIN) return;
+  if (state.value[kLowest] == INT32_MAX) return;
   extremes->highest = state.value[kHighest];
   extremes->lowest = state.value[kLowest];
   extremes->highest_along = place_of_value(kHighest, state);

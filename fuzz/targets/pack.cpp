@@ -16,8 +16,8 @@
 #include "encoder/pack/file.hpp"
 #include "encoder/stream/header.hpp"
 #include "fuzz/support/expect.hpp"
+#include "fuzz/support/pack_slots.hpp"
 #include "fuzz/support/repair.hpp"
-#include "microtin/compact_pack.h"
 #include "tests/support/limited_segment.hpp"
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t most);
@@ -80,44 +80,6 @@ struct Card {
   }
 };
 
-// On the heap, of exactly the size that is asked for. Its slots hold meshes, or compact terrains of
-// this many bytes.
-struct Device {
-  Device(uint32_t slots, uint32_t tile_bytes)
-      : is_compact(tile_bytes != 0),
-        memory(is_compact ? MICROTIN_COMPACT_PACK_BYTES(slots, kCapacity, tile_bytes)
-                          : MICROTIN_PACK_BYTES(slots, kCapacity)) {
-    const microtin_status status =
-        is_compact ? microtin_compact_pack_init(memory.data(), memory.size(), slots, kCapacity,
-                                                tile_bytes, &pack)
-                   : microtin_pack_init(memory.data(), memory.size(), slots, kCapacity, &pack);
-    EXPECT(status == MICROTIN_STATUS_OK);
-  }
-
-  microtin_status load_with(const microtin_segment& segment, microtin_read read, void* context,
-                            uint32_t step_limit) const {
-    return is_compact ? microtin_compact_pack_load_with(pack, &segment, read, context, step_limit)
-                      : microtin_pack_load_with(pack, &segment, read, context, step_limit);
-  }
-  microtin_query_result height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
-    return is_compact ? microtin_compact_pack_height_at(pack, x, y, hint, height)
-                      : microtin_pack_height_at(pack, x, y, hint, height);
-  }
-  microtin_query_result segment_extremes(const microtin_segment& segment,
-                                         microtin_segment_extremes* extremes) const {
-    return is_compact ? microtin_compact_pack_segment_extremes(pack, &segment, extremes)
-                      : microtin_pack_segment_extremes(pack, &segment, extremes);
-  }
-  microtin_query_result sample_grid(const microtin_grid_spec& block, int16_t* heights) const {
-    return is_compact ? microtin_compact_pack_sample_grid(pack, &block, heights)
-                      : microtin_pack_sample_grid(pack, &block, heights);
-  }
-
-  bool is_compact;
-  std::vector<unsigned char> memory;
-  microtin_pack* pack = nullptr;
-};
-
 int64_t coordinate(FuzzedDataProvider& asked, uint32_t most) {
   const int64_t all = static_cast<int64_t>(most) * 256;
   const int64_t any = asked.ConsumeIntegralInRange<int64_t>(-300, std::min<int64_t>(all, 1 << 23));
@@ -167,7 +129,7 @@ std::optional<int32_t> expected_height(const PackFile& file, uint32_t number, in
 }
 
 // Every answer is that of one of the tiles at the place, as the host decodes them.
-void check_height(const PackFile& file, const Device& device, int64_t x, int64_t y) {
+void check_height(const PackFile& file, const PackSlots& device, int64_t x, int64_t y) {
   uint32_t hint = 12345;
   int32_t height = 0;
   const microtin_query_result answer = device.height_at(x, y, &hint, &height);
@@ -185,7 +147,7 @@ void check_height(const PackFile& file, const Device& device, int64_t x, int64_t
 }
 
 // Blocks hold what single answers and exact arithmetic say.
-void check_fill(const Device& device, const microtin_pack_info& info,
+void check_fill(const PackSlots& device, const microtin_pack_info& info,
                 const microtin_segment& segment) {
   const microtin_grid_spec block = {segment.x, segment.y, 300, -256, 3, 2, -9999};
   int16_t heights[6];
@@ -238,7 +200,8 @@ uint64_t boxes_of_walk(const microtin_pack* pack, const microtin_segment& segmen
 
 // Serves a segment to its end, with interrupts between the calls. A segment that touches thousands
 // of bad tiles walks along them at each call: it is left when that has taken a second.
-void serve(Card& card, const Device& device, const microtin_segment& segment, uint32_t step_limit) {
+void serve(Card& card, const PackSlots& device, const microtin_segment& segment,
+           uint32_t step_limit) {
   microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
   microtin_pack_check check = {};  // whatever it finds, loading goes on
   microtin_pack_bounds bounds = {};
@@ -281,7 +244,7 @@ struct Answers {
   microtin_segment_extremes extremes;
   int16_t block[6] = {};
 
-  Answers(const Device& device, const microtin_segment& segment) {
+  Answers(const PackSlots& device, const microtin_segment& segment) {
     uint32_t hint = 0;
     begin = device.height_at(segment.x, segment.y, &hint, &height);
     on_segment = device.segment_extremes(segment, &extremes);
@@ -298,7 +261,7 @@ struct Answers {
 
 // A device that holds nothing finds all tiles of a segment whole that could be loaded.
 void expect_whole(Card& card, const microtin_segment& segment) {
-  const Device device(1, 0);
+  const PackSlots device(1, kCapacity, 0);
   microtin_pack_check check = {};
   EXPECT(microtin_pack_check_with(device.pack, &segment, 0, &check, Card::read, &card) ==
          MICROTIN_STATUS_OK);
@@ -308,11 +271,11 @@ void expect_whole(Card& card, const microtin_segment& segment) {
 void check_forms(const uint8_t* data, size_t size, uint32_t slots,
                  const std::vector<microtin_segment>& segments) {
   const uint32_t room = 40 * kCapacity + 100;  // for any tile
-  const Device meshes(slots, 0), compact(slots, room);
+  const PackSlots meshes(slots, kCapacity, 0), compact(slots, kCapacity, room);
   FuzzedDataProvider none(nullptr, 0);
   Card card{data, size, none};
   for (const microtin_segment& segment : segments) {
-    const auto is_served = [&](const Device& device) {
+    const auto is_served = [&](const PackSlots& device) {
       return device.load_with(segment, Card::read, &card, 0) == MICROTIN_STATUS_OK;
     };
     if (!is_served(meshes) || !is_served(compact)) continue;
@@ -333,8 +296,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   FuzzedDataProvider asked(data, size);
   const uint32_t slots = asked.ConsumeIntegralInRange<uint32_t>(1, 5);
   const uint32_t most_bytes = static_cast<uint32_t>(MICROTIN_COMPACT_BYTES(kCapacity));
-  const Device device(
-      slots,
+  const PackSlots device(
+      slots, kCapacity,
       asked.ConsumeBool() ? asked.ConsumeIntegralInRange<uint32_t>(most_bytes / 4, most_bytes) : 0);
   const uint32_t step_limit = asked.ConsumeIntegralInRange<uint32_t>(0, 40);
   const uint32_t sector = asked.ConsumeBool() ? 1u << asked.ConsumeIntegralInRange(3, 9) : 0;

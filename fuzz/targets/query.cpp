@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Queries on whatever was decoded, also after an early stop: heights are those of exact arithmetic,
-// from any start of the search, and segments are as high in calls of any length. The fuzzer asks by
-// the last bytes of its input.
+// from any start of the search. What queries along segments return is what exact arithmetic says,
+// in calls of any length, and also from the compact form. The fuzzer asks by the last bytes of its
+// input.
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <algorithm>
+#include <cstring>
 #include <vector>
 
 #include "fuzz/support/device.hpp"
+#include "fuzz/support/segment_checks.hpp"
 #include "fuzz/support/stream_mutator.hpp"
 #include "shared/digest.hpp"
-#include "tests/support/limited_segment.hpp"
 #include "tests/support/mesh_copy.hpp"
 #include "tests/support/reference_heights.hpp"
 
@@ -21,6 +23,7 @@ using namespace microtin::tests;
 
 constexpr uint32_t kCapacity = 1200;
 constexpr int32_t kFineMost = 65535 * 256;
+constexpr size_t kMostFacets = 300;  // that are looked at one by one
 
 struct Place {
   int32_t x, y;
@@ -74,13 +77,57 @@ void check_heights(const microtin_mesh* mesh, const MeshCopy& copy, FuzzedDataPr
   }
 }
 
-// In calls of any length, as in one.
-void check_segments(const microtin_mesh* mesh, const MeshCopy& copy, FuzzedDataProvider& asked) {
+// Heights near those of the terrain, or anywhere.
+int32_t height_from(FuzzedDataProvider& asked, const MeshCopy& copy) {
+  if (asked.ConsumeIntegral<uint8_t>() % 8 == 0)
+    return asked.ConsumeIntegralInRange<int32_t>(-(1 << 25), 1 << 25);
+  const size_t v = asked.ConsumeIntegralInRange<size_t>(0, copy.z.size() - 1);
+  return copy.z[v] * 256 + asked.ConsumeIntegralInRange<int32_t>(-300, 300);
+}
+
+bool is_on_lattice(const microtin_segment& c) {
+  return std::min({c.x, c.y, c.x_end, c.y_end}) >= 0 &&
+         std::max({c.x, c.y, c.x_end, c.y_end}) <= kFineMost;
+}
+
+// The compact form of a mesh, in memory of its own; the mesh stays as it is. Empty if there is
+// none: the mesh is not whole.
+std::vector<uint64_t> compact_form(Workspaces<kCapacity>& workspaces, microtin_mesh* mesh) {
+  std::vector<uint64_t> space(MICROTIN_COMPACT_BYTES(kCapacity) / 8 + 1),
+      scratch(MICROTIN_DECODER_BYTES(2 * kCapacity) / 8 + 1);
+  const std::vector<unsigned char> saved(workspaces.mesh, workspaces.mesh + sizeof workspaces.mesh);
+  microtin_compactor* compactor = nullptr;
+  if (microtin_compactor_init(space.data(), 8 * space.size(), mesh, scratch.data(),
+                              8 * scratch.size(), &compactor) != MICROTIN_STATUS_OK)
+    return {};
+  microtin_compact* compact = nullptr;
+  const microtin_status status = microtin_compactor_run(compactor, &compact, 0);
+  std::memcpy(workspaces.mesh, saved.data(), saved.size());
+  if (status != MICROTIN_STATUS_OK) return {};
+  EXPECT(static_cast<void*>(compact) == space.data());
+  return space;
+}
+
+// In calls of any length as in one, as the compact form has it, and as all triangles have it.
+void check_segments(const microtin_mesh* mesh, const microtin_compact* compact,
+                    const MeshCopy& copy, FuzzedDataProvider& asked) {
+  reference::Surface surface;
+  surface.add(mesh, 0, 0);
   for (int i = 0; i < 3; ++i) {
     const Place a = place_from(asked, copy), b = place_from(asked, copy);
-    const microtin_segment c = {a.x, a.y, b.x, b.y};
-    Random random(asked.ConsumeIntegral<uint32_t>());
-    EXPECT(extremes_in_pieces(mesh, c, 1 + random.below(300), random) == extremes_on(mesh, c));
+    microtin_path path = {{a.x, a.y, b.x, b.y}, height_from(asked, copy), 0, 0};
+    path.z_end = asked.ConsumeBool() ? path.z : height_from(asked, copy);
+    path.clearance = asked.ConsumeBool() ? 0 : asked.ConsumeIntegralInRange<int32_t>(-999, 9999);
+    const Walked walked = walk(mesh, path, 0);
+    const uint32_t limit = 1 + asked.ConsumeIntegral<uint8_t>();
+    EXPECT(walk(mesh, path, limit) == walked);
+    if (compact != nullptr) EXPECT(walk(compact, path, limit) == walked);
+    if (walked.result == MICROTIN_QUERY_UNVERIFIED || surface.facets.size() > kMostFacets) continue;
+    if (is_on_lattice(path.segment)) {
+      check_walk(surface, path, walked);
+    } else {
+      EXPECT(walked.result == MICROTIN_QUERY_OUTSIDE && walked.clearance.least == INT32_MAX);
+    }
   }
 }
 
@@ -127,6 +174,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const MeshCopy copy(mesh);
   EXPECT(pairing_fault(copy.mesh).empty());
   check_heights(mesh, copy, asked);
-  check_segments(mesh, copy, asked);
+  const std::vector<uint64_t> compact = compact_form(workspaces, device.mesh);
+  check_segments(
+      mesh, compact.empty() ? nullptr : reinterpret_cast<const microtin_compact*>(compact.data()),
+      copy, asked);
   return 0;
 }

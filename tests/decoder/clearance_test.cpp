@@ -24,18 +24,6 @@ bool operator==(const microtin_path_clearance& a, const microtin_path_clearance&
 
 constexpr microtin_path_clearance kNothing = {INT32_MAX, 0, -1};
 
-microtin_query_result clearance_of(const microtin_mesh* mesh, const microtin_path& path,
-                                   microtin_segment_state* state,
-                                   microtin_path_clearance* clearance, uint32_t step_limit) {
-  return microtin_mesh_path_clearance(mesh, &path, state, clearance, 0, step_limit);
-}
-
-microtin_query_result clearance_of(const microtin_compact* compact, const microtin_path& path,
-                                   microtin_segment_state* state,
-                                   microtin_path_clearance* clearance, uint32_t step_limit) {
-  return microtin_compact_path_clearance(compact, &path, state, clearance, 0, step_limit);
-}
-
 // Calls of few steps have the same result.
 template <class Form>
 void check_in_pieces(const Form* form, const microtin_path& path, microtin_query_result answer,
@@ -43,10 +31,10 @@ void check_in_pieces(const Form* form, const microtin_path& path, microtin_query
   microtin_segment_state state = {};
   microtin_path_clearance found;
   for (uint32_t i = 0; i < 3 * triangles_of(form); ++i) {
-    if (clearance_of(form, path, &state, &found, 1) != MICROTIN_QUERY_STEP_LIMIT) break;
+    if (limited_clearance(form, path, &state, &found, 1) != MICROTIN_QUERY_STEP_LIMIT) break;
     REQUIRE(found == kNothing);
   }
-  REQUIRE(clearance_of(form, path, &state, &found, 2) == answer);
+  REQUIRE(limited_clearance(form, path, &state, &found, 2) == answer);
   REQUIRE(found == clearance);
 }
 
@@ -198,6 +186,32 @@ TEST_CASE_TEMPLATE("pack: the clearance of a path is exact, and lower by the mar
   }
   CHECK(counts.clear > tried(20));
   CHECK(counts.low > tried(20));
+}
+
+TEST_CASE_TEMPLATE("pack: the first low place on a border of tiles that disagree is the first",
+                   Device, MeshSlots, CompactSlots) {
+  const ForgedTile deep = forged_tile({{{0, 0, -9}, {4, 0, -9}, {0, 4, -9}, {4, 4, -9}}, {}});
+  // Low where they begin or end, on the left side or on the right one.
+  const auto begins = [](uint16_t x) {
+    const uint16_t other = static_cast<uint16_t>(4 - x);
+    return forged_tile({{{x, 0, 0}, {other, 0, -9}, {x, 1, -9}, {x, 4, -9}, {other, 4, -9}}, {}});
+  };
+  const auto ends = [](uint16_t x) {
+    const uint16_t other = static_cast<uint16_t>(4 - x);
+    return forged_tile({{{x, 0, -9}, {other, 0, -9}, {x, 4, 9}, {other, 4, -9}}, {}});
+  };
+  for (const bool is_left : {false, true}) {
+    CAPTURE(is_left);
+    Card card{forged_pack({8, 8, 4, 4},
+                          is_left ? std::vector<ForgedTile>{deep, deep, begins(4), ends(0)}
+                                  : std::vector<ForgedTile>{deep, deep, ends(4), begins(0)})};
+    const Device device(4);
+    REQUIRE(device.load(card, at(4, 4)) == MICROTIN_STATUS_OK);
+    const microtin_path path = {{1024, 0, 1024, 1792}, 0, 0, 256};
+    microtin_path_clearance found;
+    CHECK(device.path_clearance(path, &found, 0) == MICROTIN_QUERY_OK);
+    CHECK(clearance_fault(surface_of(PackFile(card.bytes)), path, 0, found) == "");
+  }
 }
 
 }  // namespace microtin::tests

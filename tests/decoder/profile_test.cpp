@@ -13,18 +13,6 @@ namespace {
 
 using namespace reference;
 
-microtin_query_result next_of(const microtin_mesh* mesh, const microtin_segment& c,
-                              microtin_segment_state* state, microtin_crossing* crossing,
-                              uint32_t step_limit) {
-  return microtin_mesh_profile_next(mesh, &c, state, crossing, step_limit);
-}
-
-microtin_query_result next_of(const microtin_compact* compact, const microtin_segment& c,
-                              microtin_segment_state* state, microtin_crossing* crossing,
-                              uint32_t step_limit) {
-  return microtin_compact_profile_next(compact, &c, state, crossing, step_limit);
-}
-
 template <class Form>
 std::vector<microtin_crossing> profile_of(const Form* form, const microtin_segment& c,
                                           uint32_t step_limit) {
@@ -32,14 +20,14 @@ std::vector<microtin_crossing> profile_of(const Form* form, const microtin_segme
   microtin_segment_state state = {};
   microtin_crossing crossing = {0, 0, 0, 0};
   for (uint32_t i = 0; i < 5 * triangles_of(form); ++i) {
-    const microtin_query_result answer = next_of(form, c, &state, &crossing, step_limit);
+    const microtin_query_result answer = next_crossing(form, c, &state, &crossing, step_limit);
     if (answer == MICROTIN_QUERY_STEP_LIMIT) continue;
     REQUIRE(answer == MICROTIN_QUERY_OK);
     profile.push_back(crossing);
     if (crossing.along == MICROTIN_ALONG_END) break;
   }
   microtin_crossing again = {0, 0, 0, 0};
-  REQUIRE(next_of(form, c, &state, &again, step_limit) == MICROTIN_QUERY_OK);
+  REQUIRE(next_crossing(form, c, &state, &again, step_limit) == MICROTIN_QUERY_OK);
   REQUIRE(same_crossing(again, crossing));
   return profile;
 }
@@ -50,18 +38,7 @@ void check_profile(const Both& terrain, const Surface& surface, const microtin_s
   CAPTURE(c.x_end);
   CAPTURE(c.y_end);
   const std::vector<microtin_crossing> profile = profile_of(terrain.mesh.mesh(), c, 0);
-  const std::vector<Meeting> places = expected_places(surface, c);
-  const std::vector<Stretch> stretches = stretches_of(surface, c);
-  REQUIRE(profile.size() == places.size());
-  for (size_t i = 0; i < places.size(); ++i) {
-    const Meeting& place = places[i];
-    REQUIRE(profile[i].along == (place.way.part << 30) / place.way.whole);
-    REQUIRE(profile[i].height == place.height);
-    REQUIRE((profile[i].result == MICROTIN_QUERY_OK) == (place.height != INT32_MIN));
-    if (i == 0) continue;
-    const bool is_known_before = is_known(stretches, places[i - 1].way, place.way);
-    REQUIRE((profile[i].before == MICROTIN_QUERY_OK) == is_known_before);
-  }
+  REQUIRE(profile_fault(surface, c, profile) == "");
   REQUIRE(same_profile(profile_of(terrain.mesh.mesh(), c, 1), profile));
   REQUIRE(same_profile(profile_of(terrain.compact.compact(), c, 0), profile));
   REQUIRE(same_profile(profile_of(terrain.compact.compact(), c, 2), profile));

@@ -101,6 +101,21 @@ TEST_CASE("the extremes on a segment of a terrain are exact, and known if every 
   CHECK(counts.outside > 500);
 }
 
+TEST_CASE("the lowest height that there can be, which is the number for none, is a height") {
+  Tin tin;
+  tin.vertices = {{0, 0, INT16_MIN}, {4, 0, INT16_MIN}, {0, 4, INT16_MIN}, {4, 4, INT16_MIN}};
+  const Both flat(encode(tin, Metadata()));
+  const microtin_segment through = {0, 0, 1024, 512}, place = {512, 512, 512, 512};
+  for (const microtin_segment& c : {through, place}) {
+    const Extremes expected{MICROTIN_QUERY_OK, {INT32_MIN, INT32_MIN, 0, 0}};
+    CHECK(extremes_on(flat.mesh.mesh(), c) == expected);
+    CHECK(extremes_on(flat.compact.compact(), c) == expected);
+  }
+  const Extremes late{MICROTIN_QUERY_OUTSIDE, {INT32_MIN, INT32_MIN, 1 << 29, 1 << 29}};
+  tin.vertices[0].x = 2;
+  CHECK(extremes_on(Both(encode(tin, Metadata())).mesh.mesh(), {0, 0, 1024, 0}) == late);
+}
+
 TEST_CASE(
     "the extremes of segments with an end off the lattice, and of meshes that are not there") {
   const Both terrain(terrain_stream(300, 4));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Packs of tiles that the encoder would not write.
+// Packs of random tiles that the encoder would not write, and damage to them.
 #ifndef MICROTIN_TESTS_SUPPORT_FORGED_PACK_HPP
 #define MICROTIN_TESTS_SUPPORT_FORGED_PACK_HPP
 
@@ -10,55 +10,12 @@
 #include "encoder/pack/file.hpp"
 #include "encoder/stream/encode.hpp"
 #include "tests/support/device.hpp"
+#include "tests/support/forged_tiles.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/mesh_copy.hpp"
 #include "tests/support/point_sets.hpp"
 
 namespace microtin::tests {
-
-// A tile: a stream, and of how many vertices the header knows. Empty: no terrain.
-struct ForgedTile {
-  Bytes stream;
-  uint32_t vertices = 0;
-};
-
-inline ForgedTile forged_tile(const Tin& tin) {
-  return {encode(tin, Metadata()), static_cast<uint32_t>(tin.vertices.size())};
-}
-
-// The lowest and the highest height of a stream's vertices; nothing if it cannot be decoded.
-inline void add_heights(const Bytes& stream, TileSummary& summary) {
-  try {
-    const DecodedTerrain decoded(stream);
-    summary.lowest = INT16_MAX;
-    summary.highest = INT16_MIN;
-    for (uint32_t v = 0; v < microtin_mesh_vertex_count(decoded.mesh()); ++v) {
-      const int16_t z = vertex_of(decoded.mesh(), v).z;
-      summary.lowest = std::min(summary.lowest, z);
-      summary.highest = std::max(summary.highest, z);
-    }
-    microtin_mesh_margins(decoded.mesh(), &summary.below, &summary.above);
-  } catch (const Error&) {
-  }
-}
-
-// Each stream has its own place, so that damage to one is none to others.
-inline Bytes forged_pack(const TileGrid& grid, const std::vector<ForgedTile>& tiles,
-                         const Metadata& metadata = {}) {
-  PackContent content{grid, metadata, {}};
-  Bytes streams;
-  for (const ForgedTile& tile : tiles) {
-    TileSummary summary;
-    summary.bytes = static_cast<uint32_t>(tile.stream.size());
-    summary.stream_hash = stream_hash(kStreamHash, tile.stream.data(), tile.stream.size());
-    summary.vertices = tile.vertices;
-    summary.offset = summary.bytes == 0 ? 0 : streams.size();
-    if (summary.bytes != 0) add_heights(tile.stream, summary);
-    content.tiles.push_back(summary);
-    streams.insert(streams.end(), tile.stream.begin(), tile.stream.end());
-  }
-  return write_pack(content, streams);
-}
 
 inline void put_number(Bytes& bytes, size_t at, uint64_t value, size_t width) {
   for (size_t i = 0; i < width; ++i) bytes[at + i] = static_cast<uint8_t>(value >> 8 * i);
@@ -101,23 +58,9 @@ inline Tin random_vertices(Random& random, uint32_t width, uint32_t height, bool
   return tin;
 }
 
-inline bool has_triangle(const Tin& tin) {
-  const auto at = [&](size_t v) { return Point{tin.vertices[v].x, tin.vertices[v].y}; };
-  bool found = false;
-  for (size_t i = 2; i < tin.vertices.size(); ++i) {
-    found = found || orient2d(at(0), at(1), at(i)) != 0;
-  }
-  return found;
-}
-
 // The terrain with some triangles void.
 inline Tin with_some_voids(Tin tin, Random& random, uint32_t voids_of_100) {
-  const DecodedTerrain decoded(encode(tin, Metadata()));
-  const MeshCopy copy(decoded.mesh());
-  for (const std::array<Point, 3>& t : triangles_of(copy.mesh).triangles) {
-    if (random.below(100) < voids_of_100) tin.voids.push_back(Tin::Triangle{t[0], t[1], t[2]});
-  }
-  return tin;
+  return with_voids_where(std::move(tin), [&] { return random.below(100) < voids_of_100; });
 }
 
 // Such vertices that make a triangle, some triangles void.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The greatest and the least height on a segment, found in calls of a few steps.
+// Queries along a segment of a mesh or of a compact terrain, in calls of a few steps.
 #ifndef MICROTIN_TESTS_SUPPORT_LIMITED_SEGMENT_HPP
 #define MICROTIN_TESTS_SUPPORT_LIMITED_SEGMENT_HPP
 
@@ -34,6 +34,31 @@ inline Extremes limited_extremes(const microtin_compact* compact, const microtin
   Extremes told;
   told.answer = microtin_compact_segment_extremes(compact, &c, state, &told.found, limit);
   return told;
+}
+
+inline microtin_query_result limited_clearance(const microtin_mesh* mesh, const microtin_path& path,
+                                               microtin_segment_state* state,
+                                               microtin_path_clearance* clearance, uint32_t limit) {
+  return microtin_mesh_path_clearance(mesh, &path, state, clearance, 0, limit);
+}
+
+inline microtin_query_result limited_clearance(const microtin_compact* compact,
+                                               const microtin_path& path,
+                                               microtin_segment_state* state,
+                                               microtin_path_clearance* clearance, uint32_t limit) {
+  return microtin_compact_path_clearance(compact, &path, state, clearance, 0, limit);
+}
+
+inline microtin_query_result next_crossing(const microtin_mesh* mesh, const microtin_segment& c,
+                                           microtin_segment_state* state,
+                                           microtin_crossing* crossing, uint32_t limit) {
+  return microtin_mesh_profile_next(mesh, &c, state, crossing, limit);
+}
+
+inline microtin_query_result next_crossing(const microtin_compact* compact,
+                                           const microtin_segment& c, microtin_segment_state* state,
+                                           microtin_crossing* crossing, uint32_t limit) {
+  return microtin_compact_profile_next(compact, &c, state, crossing, limit);
 }
 
 template <class Form>

@@ -57,6 +57,7 @@ inline Wide area(const std::array<int64_t, 3>& a, const std::array<int64_t, 3>& 
 struct Meeting {
   Way way;
   Wide height;
+  bool is_known = true;  // false: an end without a height
 };
 
 struct Expected {

@@ -348,7 +348,8 @@ microtin_query_result microtin_pack_safe_heights_at(const microtin_pack* pack, i
                                                     uint32_t* hint, microtin_safe_heights* heights);
 
 /* Finds the greatest and the least height on a segment, and where they are, as
- * microtin_mesh_segment_extremes does. On borders the heights of all tiles count.
+ * microtin_mesh_segment_extremes does. On borders the heights of all tiles count. Of several places
+ * with the same height on a border that the segment runs along it may return a later one.
  *
  * - OK: every position of the segment has a height by microtin_pack_height_at, also between lattice
  *   positions
@@ -368,7 +369,8 @@ microtin_query_result microtin_pack_segment_extremes(const microtin_pack* pack,
  * microtin_mesh_path_clearance does. `flags` is 0 or MICROTIN_FLAG_SAFE, with the margin of each
  * tile. Results are those of microtin_pack_segment_extremes, or NO_MARGIN, and nothing is found: a
  * tile on the segment does not state its margin. Only OK covers the whole path: with any other
- * result the clearance is that of the rest. */
+ * result the clearance is that of the rest. Along a border of tiles `least_along` may be a later
+ * one of several places with the least clearance; `first_along` is the first. */
 microtin_query_result microtin_pack_path_clearance(const microtin_pack* pack,
                                                    const microtin_path* path,
                                                    microtin_path_clearance* clearance,
