@@ -283,6 +283,12 @@ SightOptions options_of(const microtin_sight_options& given) {
   return options;
 }
 
+void write_bounds(const HeightBounds& found, microtin_height_bounds* bounds) {
+  write_struct({0, found.lowest, found.highest, found.source_lowest, found.source_highest,
+                found.is_complete ? 1u : 0u},
+               bounds);
+}
+
 void write_sight(const LineOfSight& sight, const microtin_sights& to, uint64_t i) {
   const auto write = [i](double* numbers, double value) {
     if (numbers != nullptr) numbers[i] = value;
@@ -500,6 +506,26 @@ microtin_status microtin_surface_gradients(microtin_surface* surface, uint64_t c
     for (const double* const numbers : {x, y}) expect(numbers);
     for (double* const numbers : {east, north}) expect(numbers);
     surface->surface.gradients(count, x, y, east, north);
+  });
+}
+
+microtin_status microtin_surface_bounds_in_box(const microtin_surface* surface, double west,
+                                               double south, double east, double north,
+                                               microtin_height_bounds* bounds) {
+  return guarded([&] {
+    expect(surface);
+    expect_struct(bounds);
+    write_bounds(surface->surface.bounds_in_box({west, south, east, north}), bounds);
+  });
+}
+
+microtin_status microtin_surface_bounds_on_line(const microtin_surface* surface, double x, double y,
+                                                double x_end, double y_end,
+                                                microtin_height_bounds* bounds) {
+  return guarded([&] {
+    expect(surface);
+    expect_struct(bounds);
+    write_bounds(surface->surface.bounds_on_line({x, y}, {x_end, y_end}), bounds);
   });
 }
 

@@ -16,6 +16,7 @@
 #include "encoder/exact/units.hpp"
 #include "encoder/export/gradient.hpp"
 #include "encoder/export/grid.hpp"
+#include "encoder/export/height_bounds.hpp"
 #include "encoder/export/profile.hpp"
 #include "encoder/export/scene.hpp"
 #include "encoder/product/document.hpp"
@@ -140,6 +141,8 @@ struct Surface::Content {
   void for_places(size_t count, const double* x, const double* y, const Visit& visit) const;
   double height(const exact::RealPlace& place) const;
   uint32_t tile_at(int64_t x, int64_t y) const;
+  exporting::TileHeights heights_of(uint32_t tile) const;
+  HeightBounds bounds_of(const exporting::AreaHeights& found) const;
 
   product::Document document;
   exporting::SampledSurface sampled;
@@ -225,6 +228,27 @@ uint32_t Surface::Content::tile_at(int64_t x, int64_t y) const {
   const auto column = static_cast<uint32_t>(x / pack->grid().width);
   const auto row = static_cast<uint32_t>(y / pack->grid().height);
   return row * info.tile_columns + column;
+}
+
+exporting::TileHeights Surface::Content::heights_of(uint32_t tile) const {
+  const pack::PackFile* const pack = document.pack();
+  if (pack == nullptr) return {true, sampled.lowest, sampled.highest};
+  const pack::IndexEntry& entry = pack->entries()[tile];
+  return {entry.size != 0, entry.lowest, entry.highest};
+}
+
+HeightBounds Surface::Content::bounds_of(const exporting::AreaHeights& found) const {
+  HeightBounds bounds;
+  bounds.is_complete = found.is_complete && found.has_terrain;
+  if (!found.has_terrain) return bounds;
+  bounds.lowest = coordinate(info.z, found.lowest);
+  bounds.highest = coordinate(info.z, found.highest);
+  const auto below = exact::parse_decimal(info.max_below_everywhere),
+             above = exact::parse_decimal(info.max_above_everywhere);
+  if (!below || !above) return bounds;
+  bounds.source_lowest = bounds.lowest - exact::real(*above);
+  bounds.source_highest = bounds.highest + exact::real(*below);
+  return bounds;
 }
 
 Surface::Surface(std::unique_ptr<Content> content) : content_(std::move(content)) {}
@@ -325,6 +349,18 @@ void Surface::gradients(size_t count, const double* x, const double* y, double* 
     east[i] = found->x * rise / (exact::step_of(all.x) * unit.x);
     north[i] = found->y * rise / (exact::step_of(all.y) * unit.y);
   });
+}
+
+HeightBounds Surface::bounds_in_box(const Box& box) const {
+  return content_->bounds_of(exporting::heights_in_box(
+      content_->sampled, [this](uint32_t tile) { return content_->heights_of(tile); },
+      {box.west, box.south}, {box.east, box.north}));
+}
+
+HeightBounds Surface::bounds_on_line(const Position& from, const Position& to) const {
+  return content_->bounds_of(exporting::heights_on_line(
+      content_->sampled, [this](uint32_t tile) { return content_->heights_of(tile); },
+      {from.x, from.y}, {to.x, to.y}));
 }
 
 Profile Surface::profile(const Position& from, const Position& to) const {

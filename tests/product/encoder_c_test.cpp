@@ -235,6 +235,29 @@ bool is_same_number(double a, double b) {
   return std::isnan(a) ? std::isnan(b) : a == b;
 }
 
+void expect_same_bounds(const library::HeightBounds& cpp, const microtin_height_bounds& c) {
+  CHECK(is_same_number(cpp.lowest, c.lowest));
+  CHECK(is_same_number(cpp.highest, c.highest));
+  CHECK(is_same_number(cpp.source_lowest, c.source_lowest));
+  CHECK(is_same_number(cpp.source_highest, c.source_highest));
+  CHECK(cpp.is_complete == (c.is_complete != 0));
+}
+
+void expect_same_bounds(const Both& both) {
+  microtin_height_bounds bounds{};
+  bounds.size = sizeof bounds;
+  for (const double reach : {0.5, 3.0, 90.0}) {
+    CHECK(microtin_surface_bounds_in_box(both.c, 1, 2, 1 + reach, 2 + reach, &bounds) ==
+          MICROTIN_STATUS_OK);
+    expect_same_bounds(both.cpp.bounds_in_box({1, 2, 1 + reach, 2 + reach}), bounds);
+    CHECK(microtin_surface_bounds_on_line(both.c, 1, 2, 1 + reach, 2, &bounds) ==
+          MICROTIN_STATUS_OK);
+    expect_same_bounds(both.cpp.bounds_on_line({1, 2}, {1 + reach, 2}), bounds);
+  }
+  CHECK(microtin_surface_bounds_in_box(both.c, NAN, 2, 1, 2, &bounds) == MICROTIN_STATUS_REJECTED);
+  CHECK(microtin_surface_bounds_on_line(both.c, 1, 2, 1, 2, nullptr) == MICROTIN_STATUS_REJECTED);
+}
+
 void expect_same_profile(const library::Profile& cpp, const microtin_profile& c) {
   REQUIRE(c.count == cpp.places.size());
   CHECK(c.length == cpp.length);
@@ -341,6 +364,7 @@ TEST_CASE("C: what a surface hands out is that of C++, of streams and packs") {
     expect_same_raster(both, "0.5");
     expect_same_heights(both);
     expect_same_profiles(both);
+    expect_same_bounds(both);
   }
   CHECK(text_of(members_of(kC, "microtin_triangles")) ==
         "coordinates corners size triangles vertices ");
@@ -352,6 +376,8 @@ TEST_CASE("C: what a surface hands out is that of C++, of streams and packs") {
   CHECK(text_of(members_of(kC, "microtin_sights")) ==
         "first_obstruction first_zone_obstruction free_share free_share_at least_clearance "
         "least_clearance_at line size zone ");
+  CHECK(text_of(members_of(kC, "microtin_height_bounds")) ==
+        "highest is_complete lowest size source_highest source_lowest ");
   CHECK(text_of(members_of(kC, "microtin_tile_margins")) ==
         "max_above_everywhere max_below_everywhere size ");
 }

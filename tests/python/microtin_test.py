@@ -394,6 +394,33 @@ class Profiles(unittest.TestCase):
         turned = microtin.decode(microtin.encode_points([(0, 0, 9), (9, 0, 9), (0, 9, 0), (9, 9, 0)], 0.01, units="metre"))
         self.assertEqual(turned.aspect_at(4, 3), 0)
 
+    def test_height_bounds(self):
+        found = self.tin.bounds_in_box(0, 0, 100, 50)
+        self.assertEqual((found.lowest, found.highest, found.complete), (0, 50, True))
+        self.assertTrue(numpy.isnan(found.source_highest))
+        self.assertTrue(found.is_below(50.1))
+        self.assertFalse(found.is_below(50))
+        self.assertFalse(found.is_below(1000, safe=True))
+        self.assertFalse(self.tin.bounds_on_line((0, 0), (1001, 0)).is_below(1000))
+        self.assertTrue(self.tin.bounds_on_line((0, 0), (1000, 0)).is_below(51))
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "hills.mtp")
+            microtin.encode_pack(hills(), path, max_error=1, tile_vertices=100)
+            pack = microtin.decode(path)
+        west, south, east, north = pack.bounds
+        first = pack.tile(0, 0).vertices[:, 2]
+        found = pack.bounds_in_box(west, south, west + 1, south + 1)
+        self.assertEqual((found.lowest, found.highest), (first.min(), first.max()))
+        self.assertGreaterEqual(found.source_highest, found.highest)
+        self.assertTrue(found.is_below(found.source_highest + 0.1, safe=True))
+        whole = pack.bounds_on_line((west, south), (east, north))
+        self.assertTrue(whole.complete)
+        self.assertGreaterEqual(whole.highest, found.highest)
+        with self.assertRaisesRegex(microtin.Error, "not a number"):
+            pack.bounds_in_box(numpy.nan, 0, 1, 1)
+        with self.assertRaisesRegex(microtin.Error, "pair of x and y"):
+            pack.bounds_on_line((0, 0, 0), (1, 1))
+
     def test_lines_of_sight(self):
         masts = [(0, 0, 49), (0, 0, 51), (0, 0, 80)]
         found = self.tin.line_of_sight(masts, (1000, 0, 51), earth_factor=numpy.inf, frequency=868)

@@ -282,6 +282,26 @@ microtin_status microtin_surface_gradients(microtin_surface* surface, uint64_t c
                                            const double* x, const double* y, double* east,
                                            double* north);
 
+/* Between which heights an area lies, by those of the tiles that it touches; see
+ * encoder::HeightBounds. */
+typedef struct microtin_height_bounds {
+  size_t size;
+  double lowest, highest;               /* NaN: no tile of the area has terrain */
+  double source_lowest, source_highest; /* NaN: the header states no margins */
+  uint32_t is_complete; /* 1: nothing in the area is outside the bounds; voids do not count */
+} microtin_height_bounds;
+
+/* Writes between which heights a box lies, by a pack's index and without decoding. */
+microtin_status microtin_surface_bounds_in_box(const microtin_surface* surface, double west,
+                                               double south, double east, double north,
+                                               microtin_height_bounds* bounds);
+
+/* Writes between which heights the straight line between two positions lies, by a pack's index and
+ * without decoding. */
+microtin_status microtin_surface_bounds_on_line(const microtin_surface* surface, double x, double y,
+                                                double x_end, double y_end,
+                                                microtin_height_bounds* bounds);
+
 /* --- Profiles and lines of sight ---
  *
  * profile.hpp defines the terms and units; encoder/docs/profiles.md has the model and its error. */

@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <microtin/profile.hpp>
 #include <string>
@@ -124,6 +125,21 @@ struct TileMargins {
   std::string max_below_everywhere, max_above_everywhere;
 };
 
+/* Between which heights an area lies, by those of the tiles that it touches; see
+ * Surface::bounds_in_box. */
+struct HeightBounds {
+  /* Heights of vertices; NaN: no tile of the area has terrain. */
+  double lowest = std::numeric_limits<double>::quiet_NaN();
+  double highest = std::numeric_limits<double>::quiet_NaN();
+  /* How high and low the source is at most, if it is a raster; NaN: the header states no margins.
+   */
+  double source_lowest = std::numeric_limits<double>::quiet_NaN();
+  double source_highest = std::numeric_limits<double>::quiet_NaN();
+  /* The area lies inside, and each of its tiles has terrain. Only then nothing in the area is
+   * outside the bounds. Voids within tiles have no height and do not count. */
+  bool is_complete = false;
+};
+
 /* Vertices and triangles. Triangles are counter-clockwise from above; void ones are left out. */
 struct Mesh {
   std::vector<std::array<double, 3>> vertices; /* x, y, height */
@@ -187,6 +203,16 @@ class Surface {
   struct Position {
     double x = 0, y = 0;
   };
+
+  /* Returns between which heights a box lies. A pack's index has the lowest and the highest height
+   * of each tile, so no tile is decoded; a stream is one tile. What is above `highest` of complete
+   * bounds is surely above the surface there, and what is above `source_highest` above the source.
+   * Throws if a coordinate is not a number. O(tiles that the box touches). */
+  HeightBounds bounds_in_box(const Box& box) const;
+  /* Returns between which heights the straight line between two positions lies, as bounds_in_box
+   * does. In degrees the line is that of the given numbers. */
+  HeightBounds bounds_on_line(const Position& from, const Position& to) const;
+
   /* Returns the heights along the straight line between two positions, which may lie outside. In
    * degrees the line takes the shorter way around the Earth, and is straight in degrees. It bends
    * at borders of tiles and of the lattice, by at most 1/512 of a lattice step. Tiles that cannot

@@ -33,7 +33,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _library
 from ._library import Error, library
 
-__all__ = ["Error", "LineOfSight", "Profile", "Report", "Stream", "Surface", "Tile", "decode", "encode", "encode_pack", "encode_points"]
+__all__ = ["Error", "HeightBounds", "LineOfSight", "Profile", "Report", "Stream", "Surface", "Tile", "decode", "encode", "encode_pack", "encode_points"]
 __version__: str = library.microtin_version_string().decode()
 
 Number = Union[int, float, str, decimal.Decimal]
@@ -131,6 +131,26 @@ class Profile:
         )
         mixed = numpy.where(part == 1, self.height[after], mixed)
         return numpy.where(part == 0, self.height[before], mixed)
+
+
+class HeightBounds(NamedTuple):
+    """Between which heights an area lies, by those of the tiles that it touches.
+
+    lowest, highest  of vertices; NaN if no tile of the area has terrain
+    source_lowest, source_highest  how low and how high the source is at most; NaN if the margins are not stated
+    complete         the area is inside, and all of its tiles have terrain; voids within tiles have no height
+    """
+
+    lowest: float
+    highest: float
+    source_lowest: float
+    source_highest: float
+    complete: bool
+
+    def is_below(self, height: float, *, safe: bool = False) -> bool:
+        """Whether everything in the area is surely below a height: the surface, or with safe=True the source. False if it is
+        not known."""
+        return bool(self.complete and (self.source_highest if safe else self.highest) < height)
 
 
 class LineOfSight(NamedTuple):
@@ -666,6 +686,26 @@ class Surface:
         with self._lock:
             write(self._surface, x.size, *pointers)
         return found if numpy.ndim(xs) or numpy.ndim(ys) else [float(number.reshape(-1)[0]) for number in found]
+
+    def bounds_in_box(self, west: float, south: float, east: float, north: float) -> HeightBounds:
+        """Between which heights a box lies. A pack's index has the lowest and the highest height of each tile, so no tile is
+        decoded; a stream is one tile. Raises Error if a coordinate is not a number."""
+        return self._height_bounds(library.microtin_surface_bounds_in_box, west, south, east, north)
+
+    def bounds_on_line(self, begin: ArrayLike, end: ArrayLike) -> HeightBounds:
+        """Between which heights the straight line between two positions (x, y) lies, as `bounds_in_box`."""
+        ends = [numpy.asarray(position, numpy.float64) for position in (begin, end)]
+        if any(position.shape != (2,) for position in ends):
+            raise Error("an end of a line is a pair of x and y")
+        return self._height_bounds(library.microtin_surface_bounds_on_line, *ends[0], *ends[1])
+
+    def _height_bounds(self, find: Callable[..., None], *area: float) -> HeightBounds:
+        found = _library.HeightBounds()
+        with self._lock:
+            find(self._surface, *area, found)
+        return HeightBounds(
+            found.lowest, found.highest, found.source_lowest, found.source_highest, bool(found.is_complete)
+        )
 
     def profile(self, begin: ArrayLike, end: ArrayLike) -> Profile:
         """The heights along the straight line between two positions (x, y), which may lie outside. In degrees the line takes

@@ -181,6 +181,17 @@ class TileMargins(_Sized):
     ]
 
 
+class HeightBounds(_Sized):
+    _fields_ = [
+        ("size", c_size_t),
+        ("lowest", c_double),
+        ("highest", c_double),
+        ("source_lowest", c_double),
+        ("source_highest", c_double),
+        ("is_complete", c_uint32),
+    ]
+
+
 class Triangles(_Sized):
     _fields_ = [
         ("size", c_size_t),
@@ -248,6 +259,8 @@ _FUNCTIONS = {
     "surface_tile_margins": [c_void_p, c_uint32, c_uint32, POINTER(TileMargins)],
     "surface_heights": [c_void_p, c_uint64, Doubles, Doubles, Doubles],
     "surface_gradients": [c_void_p, c_uint64, Doubles, Doubles, Doubles, Doubles],
+    "surface_bounds_in_box": [c_void_p, c_double, c_double, c_double, c_double, POINTER(HeightBounds)],
+    "surface_bounds_on_line": [c_void_p, c_double, c_double, c_double, c_double, POINTER(HeightBounds)],
     "surface_profile": [c_void_p, c_double, c_double, c_double, c_double, POINTER(Profile)],
     "surface_lines_of_sight": [c_void_p, c_uint64, Doubles, POINTER(SightOptions), POINTER(Sights)],
     "surface_grid": [c_void_p, c_char_p, POINTER(Grid)],
