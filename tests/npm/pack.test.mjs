@@ -47,6 +47,50 @@ test("a gradient in a tile is that of its triangle, and none is outside", { skip
   assert.deepEqual(await pack.gradientAt(left - 1e6, bottom), { east: NaN, north: NaN });
 });
 
+test("bounds of an area are those of the tiles that it touches, by the index alone", { skip }, async () => {
+  const pack = await Pack.open(bytes);
+  const boxes = Array.from({ length: pack.columns * pack.rows }, (_, tile) => pack.tileBox(tile));
+  const spans = [];
+  for (const tile of boxes.keys()) {
+    const heights = (await pack.tile(tile)).positions.filter((_, i) => i % 3 === 2);
+    spans.push([Math.min(...heights), Math.max(...heights)]);
+  }
+  const fresh = await Pack.open(bytes);
+  const [west, south, east, north] = [...boxes[0].slice(0, 2), ...boxes.at(-1).slice(2)];
+  const reach = (axis) => pack.header.axes[axis].step / 100;
+  const spanOf = (meets) => spans.filter((_, tile) => meets(boxes[tile])).reduce(
+    ([low, high], span) => [Math.min(low, span[0]), Math.max(high, span[1])], [Infinity, -Infinity]);
+  const near = (a, b) => Math.abs(a - b) < 1e-3;
+  for (let i = 0; i < 60; ++i) {
+    const at = (k, from, to) => from + ((to - from) * ((k * 37) % 101)) / 100.7;
+    const [x, y, xEnd, yEnd] = [at(i, west, east), at(3 * i + 1, south, north), at(5 * i + 2, west, east), at(7 * i, south, north)];
+    const box = [Math.min(x, xEnd), Math.min(y, yEnd), Math.max(x, xEnd), Math.max(y, yEnd)];
+    const [lowest, highest] = spanOf(([left, bottom, right, top]) => left <= box[2] + reach("x") && right >= box[0] - reach("x") &&
+      bottom <= box[3] + reach("y") && top >= box[1] - reach("y"));
+    const found = await fresh.boundsInBox(...box);
+    assert.ok(found.isComplete && near(found.lowest, lowest) && near(found.highest, highest), `${box}`);
+    assert.ok(near(found.sourceHighest, found.highest + pack.header.everywhere.below));
+    assert.ok(near(found.sourceLowest, found.lowest - pack.header.everywhere.above));
+    const line = await fresh.boundsOnLine(x, y, xEnd, yEnd);
+    const [low, high] = spanOf(([left, bottom, right, top]) => Array.from({ length: 2001 }, (_, k) => k / 2000).some((part) => {
+      const [px, py] = [x + (xEnd - x) * part, y + (yEnd - y) * part];
+      return px >= left && px <= right && py >= bottom && py <= top;
+    }));
+    assert.ok(line.isComplete && line.lowest <= low + 1e-3 && line.highest >= high - 1e-3);
+    assert.ok(line.lowest >= found.lowest && line.highest <= found.highest);
+    const heights = (await pack.profile(x, y, xEnd, yEnd)).map(({ height }) => height);
+    assert.ok(Math.max(...heights) <= line.highest + 1e-3 && Math.min(...heights) >= line.lowest - 1e-3);
+  }
+  assert.equal((await fresh.boundsInBox(west - 1e6, south, east, north)).isComplete, false);
+  assert.ok(Number.isNaN((await fresh.boundsOnLine(west - 9e6, south, west - 8e6, north)).highest));
+  assert.equal((await fresh.boundsInBox(NaN, south, east, north)).isComplete, false);
+  await assert.rejects(fresh.boundsInBox(west, south, east), TypeError);
+  const damaged = bytes.slice();
+  const index = 48 + bytes[6] + new DataView(bytes.buffer, bytes.byteOffset).getUint16(8, true) + 4;
+  damaged[index + 13] ^= 1; // the first tile's lowest height
+  await assert.rejects((await Pack.open(damaged)).boundsInBox(west, south, west, south), MicrotinError);
+});
+
 test("a profile through tiles has their heights, in order, and says what is not known", { skip }, async () => {
   const pack = await Pack.open(bytes);
   const [left, bottom, right, top] = [...pack.tileBox(0).slice(0, 2), ...pack.tileBox(pack.columns * pack.rows - 1).slice(2)];

@@ -10,11 +10,11 @@ import { goldenBytes, microtin } from "./support.mjs";
 const folder = process.env.MICROTIN_NPM;
 const size = (bytes) => zlib.gzipSync(bytes, { level: 9 }).length;
 
-test("the module takes at most 28 KB gzipped, its WebAssembly 38 KB and 20, without packs 24 and 13", (t) => {
+test("the module takes at most 29 KB gzipped, its WebAssembly 39 KB and 20, without packs 24 and 13", (t) => {
   const module = size(fs.readFileSync(path.join(folder, "microtin.js")));
   t.diagnostic(`module ${module} bytes gzipped`);
-  assert.ok(module <= 28 * 1024);
-  for (const [name, most, mostGzipped] of [["microtin", 38, 20], ["streams", 24, 13]]) {
+  assert.ok(module <= 29 * 1024);
+  for (const [name, most, mostGzipped] of [["microtin", 39, 20], ["streams", 24, 13]]) {
     const wasm = fs.readFileSync(path.join(folder, `../decoder/packages/npm/${name}.opt.wasm`));
     t.diagnostic(`${name}: WebAssembly ${wasm.length}, ${size(wasm)} gzipped`);
     assert.ok(wasm.length <= most * 1024 && size(wasm) <= mostGzipped * 1024);

@@ -95,6 +95,19 @@ export interface Gradient {
   north: number;
 }
 
+/** Between which heights an area lies, by those of the tiles that it touches. */
+export interface HeightBounds {
+  /** Of vertices; NaN if no tile of the area has terrain. */
+  lowest: number;
+  highest: number;
+  /** How low and how high the source is at most; NaN if the header states no margins. */
+  sourceLowest: number;
+  sourceHighest: number;
+  /** Whether the area lies inside, and each of its tiles has terrain. Then all above `highest` is surely above the
+   * terrain there. Voids within tiles have no height and do not count. */
+  isComplete: boolean;
+}
+
 /** A place of a profile: an end of the line, a vertex on it, or where it crosses an edge. */
 export interface ProfilePlace {
   /** The part of the line before the place, 0 to 1. */
@@ -205,6 +218,11 @@ export class Pack {
   /** The height at a real place; NaN outside, for NaN and infinities, or where the terrain is not known.
    * @throws MicrotinError if the tile is damaged */
   heightAt(x: number, y: number): Promise<number>;
+  /** Between which heights a box lies, by 20 bytes of the index for each tile: no tile is read.
+   * @throws MicrotinError if an entry is damaged */
+  boundsInBox(xMin: number, yMin: number, xMax: number, yMax: number): Promise<HeightBounds>;
+  /** Between which heights the straight line between two real places lies, as {@link boundsInBox}. */
+  boundsOnLine(x: number, y: number, xEnd: number, yEnd: number): Promise<HeightBounds>;
   /** The gradient at a real place, as that of a {@link Terrain}. @throws MicrotinError if the tile is damaged */
   gradientAt(x: number, y: number): Promise<Gradient>;
   /** The exact greatest height on the straight segment; NaN if a part of it lies outside or where nothing is

@@ -107,12 +107,17 @@ double entry_start(const microtin_pack* pack, uint32_t tile) {
   return static_cast<double>(pack_entry_start(pack->header, tile));
 }
 
-// The bytes of the stream that an entry tells of, and where it begins; 0 if it breaks a rule.
-uint32_t stream_bytes(const microtin_pack* pack, const uint8_t* bytes, double* offset) {
+// Returns the bytes of a tile's stream, which begins at *offset, by its entry of the index. 0 if
+// the tile has no terrain, or -1 if the entry breaks a rule or its check.
+int32_t read_entry(const microtin_pack* pack, uint32_t tile, const uint8_t* bytes, double* offset) {
   PackEntry entry{};
-  if (!read_pack_entry(bytes, pack->header, &entry)) return 0;
+  if (read_u32(bytes + kPackEntryBytes - kCheckBytes) !=
+          pack_entry_check(pack->header.identity, tile, bytes) ||
+      !read_pack_entry(bytes, pack->header, &entry)) {
+    return -1;
+  }
   *offset = static_cast<double>(entry.offset);
-  return entry.size;
+  return static_cast<int32_t>(entry.size);
 }
 
 // The vertices of a tile by the first bytes of its stream; 0 if these are not understood.

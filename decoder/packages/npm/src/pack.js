@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A terrain in tiles, of which those are read that are asked for.
 
+import { tilesNear } from "./bounds.js";
 import { checkInteger, checkNumber } from "./check.js";
 import { noGradient, realGradient } from "./gradient.js";
 import { axesAt, canHold, everywhereAt, notesAt, toLattice } from "./header.js";
@@ -18,7 +19,7 @@ const INFO_BYTES = 104, X_MAX = 0, Y_MAX = 4, WIDTH = 8, HEIGHT = 10, MOST = 12,
 const MOST_SLOTS = 255, MOST_BAD = 8; // MICROTIN_PACK_MAX_BAD_TILES
 const CACHE_BYTES = 2 ** 26;
 const FIXED = 48; // bytes of a header, at least
-const ENTRY = 20, START = 64; // bytes of an entry of the index, and of a stream that announce its vertices
+const ENTRY = 20, HEIGHTS = 12, START = 64; // bytes of an entry, up to its heights, and of a stream that announce vertices
 const USUAL = 2 ** 14; // vertices that a slot has room for, until a stream has more
 const ROOM = 2 ** 20; // vertices that slots have room for together, if one has as many as that
 const FIRST_PIECE = 1024; // bytes of a tile that are read first; then twice as many
@@ -238,6 +239,60 @@ export class Pack {
     });
   }
 
+  // --- Between which heights an area lies, by the index alone.
+
+  async boundsInBox(xMin, yMin, xMax, yMax) {
+    return this.#bounds([xMin, yMin], [xMax, yMax], true);
+  }
+
+  async boundsOnLine(x, y, xEnd, yEnd) {
+    return this.#bounds([x, y], [xEnd, yEnd], false);
+  }
+
+  #bounds(...area) {
+    const { x, y, z } = this.header.axes, { everywhere } = this.header;
+    const isBox = area.pop();
+    const [a, b] = area.map((place) =>
+      [x, y].map((axis, i) => (checkNumber("a coordinate", place[i]) - axis.start) / axis.step));
+    return this.#alone(async () => {
+      this.#putSegment([-256, -256, -256, -256]);
+      await this.#serve(); // the header
+      let [lowest, highest] = [Infinity, -Infinity];
+      let isComplete = [a, b].every((place) => place.every((k, i) => k >= 0 && k <= this.extent[i]));
+      for (const run of tilesNear(this, a, b, isBox)) {
+        for (const heights of await this.#heightsOf(...run)) {
+          if (!heights) isComplete = false;
+          else [lowest, highest] = [Math.min(lowest, heights[0]), Math.max(highest, heights[1])];
+        }
+      }
+      const isKnown = lowest <= highest;
+      const real = (k, more = 0) => (isKnown ? z.start + k * z.step + more : NaN);
+      return {
+        lowest: real(lowest),
+        highest: real(highest),
+        sourceLowest: real(lowest, -(everywhere?.above ?? NaN)),
+        sourceHighest: real(highest, everywhere?.below ?? NaN),
+        isComplete: isComplete && isKnown,
+      };
+    });
+  }
+
+  // The lowest and the highest height of each of `count` tiles; undefined without terrain.
+  async #heightsOf(first, count) {
+    const instance = this.#instance;
+    const { results, calls } = instance;
+    const bytes = await this.#source.bytesAt(calls.entry_start(this.#pack, first), ENTRY * count);
+    return Array.from({ length: count }, (_, i) => instance.borrow(ENTRY, (at) => {
+      const entry = bytes.subarray(ENTRY * i, ENTRY * (i + 1));
+      const where = `tile ${first + i}`;
+      if (entry.length < ENTRY) throw new MicrotinError(TRUNCATED, { where });
+      instance.put(at, entry);
+      const size = calls.read_entry(this.#pack, first + i, at, results);
+      if (size < 0) throw new MicrotinError(CHECKSUM, { where });
+      return size ? [...instance.array(Int16Array, at + HEIGHTS, 2)] : undefined;
+    }));
+  }
+
   // --- Reading.
 
   // One at a time: the work in hand is the pack's.
@@ -295,7 +350,8 @@ export class Pack {
       return use(at, bytes.length);
     });
     const entry = await this.#source.bytesAt(calls.entry_start(this.#pack, tile), ENTRY);
-    const size = holding(entry, (at, length) => (length < ENTRY ? 0 : calls.stream_bytes(this.#pack, at, results)));
+    const size = holding(entry, (at, length) => (length < ENTRY ? 0 : calls.read_entry(this.#pack, tile, at, results)));
+    if (size <= 0) return 0;
     const start = await this.#source.bytesAt(instance.view.getFloat64(results, true), Math.min(size, START));
     const vertices = holding(start, (at, length) => calls.announced_vertices(this.#pack, tile, at, length));
     return canHold(size, vertices) ? vertices : 0;
