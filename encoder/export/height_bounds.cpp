@@ -41,7 +41,7 @@ Position on_lattice(const SampledSurface& surface, Position p) {
 
 // Both ends on the lattice; in degrees by those names that are nearest to the surface's middle, and
 // from one end to the other as far as given.
-std::pair<Position, Position> ends_on_lattice(const SampledSurface& surface, Position from,
+std::pair<Position, Position> area_on_lattice(const SampledSurface& surface, Position from,
                                               Position to) {
   for (const double coordinate : {from.x, from.y, to.x, to.y}) {
     if (!std::isfinite(coordinate)) throw Error("a coordinate of the area is not a number");
@@ -102,7 +102,7 @@ class Gathering {
 
 AreaHeights heights_in_box(const SampledSurface& surface, const TileHeightsOf& heights_of,
                            Position corner, Position opposite) {
-  const auto [a, b] = ends_on_lattice(surface, corner, opposite);
+  const auto [a, b] = area_on_lattice(surface, corner, opposite);
   Gathering gathering(surface, heights_of, is_inside(surface, a) && is_inside(surface, b));
   const Slices rows = gathering.rows(Range::between(a.y, b.y));
   for (int64_t row = rows.first; row < rows.last; ++row) {
@@ -113,7 +113,7 @@ AreaHeights heights_in_box(const SampledSurface& surface, const TileHeightsOf& h
 
 AreaHeights heights_on_line(const SampledSurface& surface, const TileHeightsOf& heights_of,
                             Position from, Position to) {
-  const auto [a, b] = ends_on_lattice(surface, from, to);
+  const auto [a, b] = area_on_lattice(surface, from, to);
   Gathering gathering(surface, heights_of, is_inside(surface, a) && is_inside(surface, b));
   const Range all = Range::between(a.y, b.y);
   const Slices rows = gathering.rows(all);

@@ -21,35 +21,36 @@ using microtin::tests::write_file;
 
 namespace {
 
-constexpr uint32_t kSide = 65;
-constexpr double kCell = 10, kLast = (kSide - 1) * kCell;
-constexpr double kNear = kCell / 256;
+constexpr uint32_t kBoundsSide = 65;
+constexpr double kBoundsCell = 10, kBoundsLast = (kBoundsSide - 1) * kBoundsCell;
+constexpr double kBoundsNear = kBoundsCell / 256;
 
 // Hills; the last tiles of a pack are void. Row 0 is the northernmost.
-SourceTerrain hills() {
+SourceTerrain bounded_hills() {
   std::vector<double> heights;
-  for (uint32_t row = 0; row < kSide; ++row) {
-    for (uint32_t column = 0; column < kSide; ++column) {
+  for (uint32_t row = 0; row < kBoundsSide; ++row) {
+    for (uint32_t column = 0; column < kBoundsSide; ++column) {
       const bool is_void = column >= 48 && row >= 32;
       heights.push_back(is_void ? std::nan("")
                                 : static_cast<double>((column * column + 31 * row) % 97));
     }
   }
-  return SourceTerrain(raster_from_cells(kSide, kSide, heights.data(),
-                                         {-kCell / 2, kCell, 0, kLast + kCell / 2, 0, -kCell}));
+  return SourceTerrain(raster_from_cells(
+      kBoundsSide, kBoundsSide, heights.data(),
+      {-kBoundsCell / 2, kBoundsCell, 0, kBoundsLast + kBoundsCell / 2, 0, -kBoundsCell}));
 }
 
-Surface pack_of(const TemporaryFolder& folder) {
+Surface bounded_pack(const TemporaryFolder& folder) {
   Options options;
   options.max_error = "1";
   options.tile_size = 16;
   options.tile_vertices = 400;
-  encode_pack(hills(), options, folder / "t.mtp");
+  encode_pack(bounded_hills(), options, folder / "t.mtp");
   return Surface::from_file(folder / "t.mtp");
 }
 
 // Whether the line comes within `reach` of a box, by many of its places; below 0: into the box.
-bool meets(const Box& box, Surface::Position a, Surface::Position b, double reach) {
+bool line_meets(const Box& box, Surface::Position a, Surface::Position b, double reach) {
   constexpr int kPlaces = 20000;
   for (int i = 0; i <= kPlaces; ++i) {
     const double x = a.x + (b.x - a.x) * i / kPlaces, y = a.y + (b.y - a.y) * i / kPlaces;
@@ -60,7 +61,7 @@ bool meets(const Box& box, Surface::Position a, Surface::Position b, double reac
   return false;
 }
 
-struct Span {
+struct HeightSpan {
   double lowest = 1e9, highest = -1e9;
   bool is_complete = true;
 
@@ -75,8 +76,9 @@ struct Span {
 
 // The vertices of all tiles that meet(box) names.
 template <class Meet>
-Span span_of(const Surface& surface, const std::vector<Mesh>& tiles, const Meet& meet) {
-  Span span;
+HeightSpan height_span_of(const Surface& surface, const std::vector<Mesh>& tiles,
+                          const Meet& meet) {
+  HeightSpan span;
   for (uint32_t i = 0; i < tiles.size(); ++i) {
     const uint32_t columns = surface.info().tile_columns;
     if (meet(surface.tile_box(i % columns, i / columns))) span.add(tiles[i]);
@@ -84,7 +86,7 @@ Span span_of(const Surface& surface, const std::vector<Mesh>& tiles, const Meet&
   return span;
 }
 
-std::vector<Mesh> tiles_of(const Surface& surface) {
+std::vector<Mesh> meshes_of_tiles(const Surface& surface) {
   std::vector<Mesh> tiles;
   for (uint32_t row = 0; row < surface.info().tile_rows; ++row) {
     for (uint32_t column = 0; column < surface.info().tile_columns; ++column) {
@@ -95,7 +97,8 @@ std::vector<Mesh> tiles_of(const Surface& surface) {
 }
 
 // The bounds hold what the area surely touches, and nothing but what it nearly touches.
-void check_between(const HeightBounds& found, const Span& least, const Span& most) {
+void check_bounds_between(const HeightBounds& found, const HeightSpan& least,
+                          const HeightSpan& most) {
   const bool has_terrain = !std::isnan(found.highest);
   if (least.highest >= least.lowest) REQUIRE(has_terrain);
   if (has_terrain) {
@@ -112,14 +115,14 @@ void check_between(const HeightBounds& found, const Span& least, const Span& mos
 
 TEST_CASE("bounds of boxes and lines are those of the tiles that they touch, and cover the rest") {
   const TemporaryFolder folder;
-  const Surface surface = pack_of(folder);
-  const std::vector<Mesh> tiles = tiles_of(surface);
+  const Surface surface = bounded_pack(folder);
+  const std::vector<Mesh> tiles = meshes_of_tiles(surface);
   std::mt19937 random(1);
   int complete = 0, partial = 0;
   for (int i = 0; i < 300; ++i) {
-    const double unit = i % 3 == 0 ? 16 * kCell : i % 3 == 1 ? kCell : 1;
+    const double unit = i % 3 == 0 ? 16 * kBoundsCell : i % 3 == 1 ? kBoundsCell : 1;
     const auto pick = [&] {
-      return std::floor(static_cast<double>(random() % 10000) / 9999 * kLast / unit) * unit;
+      return std::floor(static_cast<double>(random() % 10000) / 9999 * kBoundsLast / unit) * unit;
     };
     Surface::Position a, b;
     a.x = pick(), a.y = pick(), b.x = pick(), b.y = pick();
@@ -127,19 +130,20 @@ TEST_CASE("bounds of boxes and lines are those of the tiles that they touch, and
     CAPTURE(i);
     const HeightBounds on_line = surface.bounds_on_line(a, b);
     const auto near = [&](double reach) {
-      return span_of(surface, tiles, [&](const Box& box) { return meets(box, a, b, reach); });
+      return height_span_of(surface, tiles,
+                            [&](const Box& box) { return line_meets(box, a, b, reach); });
     };
-    check_between(on_line, near(0), near(3 * kNear));
+    check_bounds_between(on_line, near(0), near(3 * kBoundsNear));
     const Box box = {std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.x, b.x),
                      std::max(a.y, b.y)};
     const auto in_box = [&](double reach) {
-      return span_of(surface, tiles, [&](const Box& tile) {
+      return height_span_of(surface, tiles, [&](const Box& tile) {
         return tile.west <= box.east + reach && tile.east >= box.west - reach &&
                tile.south <= box.north + reach && tile.north >= box.south - reach;
       });
     };
     const HeightBounds found = surface.bounds_in_box(box);
-    check_between(found, in_box(0), in_box(2 * kNear));
+    check_bounds_between(found, in_box(0), in_box(2 * kBoundsNear));
     const Profile profile = surface.profile(a, b);
     for (const ProfilePlace& place : profile.places) {
       if (std::isnan(place.height)) continue;
@@ -157,18 +161,18 @@ TEST_CASE("bounds of boxes and lines are those of the tiles that they touch, and
 
 TEST_CASE("bounds of areas that leave a surface are not complete, and a stream is one tile") {
   const TemporaryFolder folder;
-  const Surface pack = pack_of(folder);
+  const Surface pack = bounded_pack(folder);
   CHECK(pack.bounds_in_box({0, 0, 100, 100}).is_complete);
   CHECK(!pack.bounds_in_box({-1, 0, 100, 100}).is_complete);
-  CHECK(!pack.bounds_on_line({0, 0}, {0, kLast + 1}).is_complete);
+  CHECK(!pack.bounds_on_line({0, 0}, {0, kBoundsLast + 1}).is_complete);
   const HeightBounds outside = pack.bounds_in_box({-100, -100, -50, -50});
   CHECK(std::isnan(outside.highest));
   CHECK(!outside.is_complete);
-  CHECK(std::isnan(pack.bounds_on_line({kLast + 9, 0}, {kLast + 99, 9}).lowest));
+  CHECK(std::isnan(pack.bounds_on_line({kBoundsLast + 9, 0}, {kBoundsLast + 99, 9}).lowest));
   CHECK_THROWS_AS(pack.bounds_in_box({std::nan(""), 0, 1, 1}), std::runtime_error);
   Options options;
   options.max_error = "1";
-  write_file(folder / "t.mtin", encode_stream(hills(), options).bytes);
+  write_file(folder / "t.mtin", encode_stream(bounded_hills(), options).bytes);
   const Surface stream = Surface::from_file(folder / "t.mtin");
   const HeightBounds all = stream.bounds_on_line({0, 0}, {10, 10});
   CHECK(all.highest == stream.info().highest);
