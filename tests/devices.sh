@@ -27,7 +27,7 @@ build/release/microtin fractal --size 193 --seed 9 -o "$terrain.asc"
 build/release/microtin encode "$terrain.asc" --max-vertices 300 -o "$terrain.mtin"
 build/release/tests/host_report "$terrain.mtin" >"$terrain.report"
 
-build/release/microtin embed tests/golden/hills.mtin -o build/devices/terrain.h
+build/release/microtin embed tests/golden/1.0/hills.mtin -o build/devices/terrain.h
 # What the module for browsers is tested on.
 area=build/devices/area
 tests/npm/area build/release/microtin $area

@@ -19,7 +19,7 @@ grep '^[a-z]' "$source/fuzz/targets/list" | while read -r name _ length seeds di
   rm -rf "$corpus"
   mkdir "$corpus"
   case $seeds in
-    golden) cp "$source"/tests/golden/*.mtin "$corpus" ;;
+    golden) cp "$source"/tests/golden/1.0/*.mtin "$corpus" ;;
     own) cp "$source/fuzz/seeds/$name"/* "$corpus" ;;
   esac
   [ ! -d "$source/fuzz/findings/$name" ] || cp "$source/fuzz/findings/$name"/* "$corpus"

@@ -13,7 +13,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 RECORD = HERE / "commands.txt"
-GOLDEN = HERE.parent / "golden"
+GOLDEN = HERE.parent / "golden/1.0"
 # Reports, of files that have as many keys as possible. Files without a folder are made first.
 MADE = (
     "fractal --size 33 -o t.asc",

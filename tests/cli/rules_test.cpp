@@ -337,7 +337,7 @@ TEST_CASE("rules: each holds with each reader, behind each door, or says why it 
       check_file(cell);
     }
   }
-  const std::string manual = microtin::files::read_file(golden("../../encoder/docs/rules.md"));
+  const std::string manual = microtin::files::read_file(golden("../../../encoder/docs/rules.md"));
   for (const std::string& reader : readers) {
     const bool is_told = reader[0] != '.' || contains(line_of(manual, "rule"), '`' + reader + '`');
     CHECK_MESSAGE(is_told, reader << " is not in the document's table");

@@ -12,7 +12,7 @@
 namespace microtin::tests {
 namespace {
 
-const std::filesystem::path kTests = golden_folder() / "..";
+const std::filesystem::path kTests = golden_folder() / "../..";
 
 // With every run of spaces and line breaks as one space.
 std::string text_of(const std::filesystem::path& path) {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""annotated.py [--write | FOLDER]: the annotated files of format-stream.md and format-pack.md are what the second decoder finds in
-tests/golden/example.mtin and pair.mtp, byte by byte and symbol by symbol. --write writes them into the pages. With a
-folder, its pages are compared instead. test-files.md lists each golden file."""
+"""annotated.py [--write | FOLDER]: the annotated files of format-stream.md and format-pack.md are what the second decoder
+finds in example.mtin and pair.mtp of tests/golden/1.0, byte by byte and symbol by symbol. --write writes them into the
+pages. With a folder, its pages are compared instead. test-files.md lists each golden file."""
 
 import sys
 from pathlib import Path
@@ -190,7 +190,7 @@ class Narrator(decoder.Decoder):
 
 
 def annotated_stream():
-    data = (ROOT / "tests/golden/example.mtin").read_bytes()
+    data = (ROOT / "tests/golden/1.0/example.mtin").read_bytes()
     fields, narrator = Fields(data), Narrator(data)
     add_stream(fields)
     narrator.decode()
@@ -241,7 +241,7 @@ def add_entry(fields, tile):
 
 
 def annotated_pack():
-    data = (ROOT / "tests/golden/pair.mtp").read_bytes()
+    data = (ROOT / "tests/golden/1.0/pair.mtp").read_bytes()
     pack, fields = Pack(data), Fields(data)
     notes = add_pack_header(fields, pack)
     add_notes(fields, fields.at + notes)
@@ -263,7 +263,7 @@ def annotated_pack():
 def unlisted():
     """Golden files without a row in test-files.md."""
     page = (ROOT / "shared/docs/test-files.md").read_text(encoding="utf-8")
-    files = sorted((ROOT / "tests/golden").glob("*.mt[ip]*"))
+    files = sorted((ROOT / "tests/golden").glob("*/*.mt[ip]*"))
     return [file.name for file in files if f"\n| {file.stem} | " not in page]
 
 

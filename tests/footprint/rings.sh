@@ -10,7 +10,7 @@ seeds=${1:-3} microtin=${MICROTIN:-build/release/microtin}
 work=$PWD/build/rings
 mkdir -p "$work/streams"
 for name in tile_quick tile_balanced tile_dense wheels; do
-  cp tests/golden/example.mtin "$work/streams/$name.mtin" # only tile_balanced is used
+  cp tests/golden/1.0/example.mtin "$work/streams/$name.mtin" # only tile_balanced is used
 done
 cmake --preset cortex-m4 -B "$work/build" -DMICROTIN_FOOTPRINT_STREAMS="$work/streams" >"$work/log"
 

@@ -16,7 +16,7 @@ REASONS = {"outside": "none: 1", "void": "none: 2"}
 
 def main():
     compared = wrong = 0
-    for file in sorted(FOLDER.glob("*.mtin")):
+    for file in sorted(FOLDER.glob("1.0/*.mtin")):
         decoder = Decoder(file.read_bytes()).decode()
         for line in file.with_suffix(".report").read_text().splitlines()[3:]:
             x, y, expected = line.split(" ", 2)

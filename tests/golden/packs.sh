@@ -1,11 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# packs.sh MICROTIN: makes the packs of this folder anew; tests/pack/card_test.cpp writes what a host answers,
-# tests/pack/tile_digests_test.cpp the digest of each tile.
+# packs.sh MICROTIN FOLDER: makes packs as those of the folder 1.0, which never change; tests/pack/card_test.cpp writes
+# what a host answers, tests/pack/tile_digests_test.cpp the digest of each tile.
 # card.mtp is for decoder/examples/card.c: a byte of one of its tiles is damaged. tiles.mtp fits into 16 KB of RAM.
 set -eu
 microtin=$1
-here=$(dirname "$0")
+here=$2
 terrain=$(mktemp -d)
 trap 'rm -r "$terrain"' EXIT
 "$microtin" fractal --size 385 --seed 20 -o "$terrain/t.asc"

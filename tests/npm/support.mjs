@@ -7,7 +7,7 @@ import path from "node:path";
 export const microtin = await import(path.join(process.env.MICROTIN_NPM, "microtin.js"));
 await microtin.ready;
 
-const golden = path.join(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "../golden");
+const golden = path.join(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "../golden/1.0");
 
 export const bytesOf = (file) => new Uint8Array(fs.readFileSync(file));
 export const goldenNames = fs.readdirSync(golden).filter((name) => name.endsWith(".mtin"));

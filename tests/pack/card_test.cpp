@@ -132,7 +132,7 @@ TEST_CASE("card: recorded flights have the host's heights") {
 }
 
 TEST_CASE("card: sectors are at most twice the bytes requested, and the damaged tile is reported") {
-  const std::string facts = read_file(golden("../../decoder/examples/card.txt"));
+  const std::string facts = read_file(golden("../../../decoder/examples/card.txt"));
   CHECK(fact(facts, "bytes of sectors read") <= 2 * fact(facts, "bytes asked for"));
   CHECK(fact(facts, "turns without a card") > 0);
   CHECK(facts.find("damaged: tile " + std::to_string(HostPack(golden("card.mtp")).bad()[0]) +

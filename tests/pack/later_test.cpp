@@ -10,12 +10,12 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/stream/header.hpp"
-#include "tests/firmware/tiles_report.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/noted_metadata.hpp"
 #include "tests/support/pack_device.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/report_of_tiles.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -141,20 +141,6 @@ std::vector<std::pair<std::string, Bytes>> golden_packs() {
           {"flag_high", with_flag(16, true)}};
 }
 
-std::string report_of(const Bytes& bytes) {
-  Card card{bytes};
-  std::string report;
-  Pack<4, 8> pack;
-  report_tiles(
-      pack,
-      [&](Pack<4, 8>& from, const microtin_segment& segment) {
-        return from.load_with(segment, Card::read, &card);
-      },
-      [&](const char* text) { report += text; },
-      [&](int32_t number) { report += std::to_string(number); });
-  return report;
-}
-
 std::string refusal(const Bytes& bytes, uint32_t tile) {
   try {
     PackFile(bytes).tile(tile);
@@ -172,7 +158,7 @@ TEST_CASE("golden packs: what a later version may add is read, or refused with o
     const std::string& name = pack.first;
     const Bytes& bytes = pack.second;
     CAPTURE(name);
-    const std::string report = report_of(bytes);
+    const std::string report = report_of_tiles(bytes);
     if (std::getenv("MICROTIN_WRITE_GOLDEN") != nullptr) {
       write_file(golden(name + ".mtp"), bytes);
       write_file(golden(name + ".report"), {report.begin(), report.end()});

@@ -428,7 +428,7 @@ const std::map<std::string, Check>& checks() {
 }  // namespace
 
 TEST_CASE("the library computes each test vector of the second decoder") {
-  std::ifstream file(golden("vectors.json"));
+  std::ifstream file(golden("../vectors.json"));
   const Json vectors = Json::parse(file);
   std::set<std::string> met;
   for (const auto& kind : vectors.items()) {

@@ -22,7 +22,7 @@ using Names = std::set<std::string>;
 
 // The text of a file of the repository, without comments.
 inline std::string code_of(const std::string& path) {
-  std::ifstream file(golden_folder() / "../.." / path);
+  std::ifstream file(golden_folder() / "../../.." / path);
   REQUIRE_MESSAGE(file, path);
   std::string text{std::istreambuf_iterator<char>(file), {}};
   for (const auto& [begin, end] : {std::pair("/*", "*/"), std::pair("//", "\n")}) {

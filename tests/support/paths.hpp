@@ -10,10 +10,10 @@
 
 namespace microtin::tests {
 
-// The folder tests/golden.
+// The folder tests/golden/1.0: golden files, which never change.
 std::filesystem::path golden_folder();
 
-// The path of a file in tests/golden.
+// The path of a file in tests/golden/1.0.
 std::string golden(const std::string& name);
 
 // The folder of terrains that are not part of the project; empty if it is absent.
