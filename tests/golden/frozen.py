@@ -59,12 +59,15 @@ def planted():
 
         return plant
 
+    def rename(folder):
+        (folder / "1.0/pair.mtp").rename(folder / "1.0/two.mtp")
+
     cases = {
         "1.0/hills.mtin: has changed": change("1.0/hills.mtin"),
         "1.0/hills.report: has changed": change("1.0/hills.report"),
         "1.0/voids.mtin: is gone": lambda folder: (folder / "1.0/voids.mtin").unlink(),
         "1.0/refused/new.mtin: was added": lambda folder: (folder / "1.0/refused/new.mtin").write_bytes(b""),
-        "1.0/pair.mtp: is gone|1.0/two.mtp: was added": lambda folder: (folder / "1.0/pair.mtp").rename(folder / "1.0/two.mtp"),
+        "1.0/pair.mtp: is gone|1.0/two.mtp: was added": rename,
         "1.0.sha256: is not": lambda folder: (folder / "1.0.sha256").write_text(list_of(sums_of(folder / "1.0"))[:-1]),
         "1.1: the hash": lambda folder: (folder / "1.1").mkdir(),
     }

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""macos.py FOLDER: what can be checked of a build for macOS without Apple's headers and libraries. FOLDER is for the build.
+"""macos.py FOLDER: what can be checked of a build for macOS, in FOLDER, without Apple's headers and libraries.
 
 The whole project is configured for macOS with clang and lld (macos.cmake). The decoder is compiled for arm64. The
 decoder's objects are then linked with the options of each program, library and plugin, so that lld takes all of them,
@@ -14,7 +14,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 CLANG = ["clang++", "--target=arm64-apple-macos11"]
-KINDS = {"SHARED_LIBRARY": ["-dynamiclib"], "MODULE_LIBRARY": ["-bundle"], "EXECUTABLE": ["-Wl,-e,_microtin_read_stream_info"]}
+KINDS = {"SHARED_LIBRARY": ["-dynamiclib"], "MODULE_LIBRARY": ["-bundle"],
+         "EXECUTABLE": ["-Wl,-e,_microtin_read_stream_info"]}  # fmt: skip
 EXPECTED = {"microtin_shared": "libmicrotin.{version}.dylib", "microtin": "microtin",
             "microtin_mdal": "mdalplugins/libmicrotin_mdal.so"}  # fmt: skip
 GNU = "-Xlinker --exclude-libs -Xlinker ALL"
@@ -34,7 +35,8 @@ def must_run(*command):
 def links_of(folder):
     """Each target that is linked: name, kind, file, options of the linker."""
     text = (folder / "build.ninja").read_text()
-    for block in re.findall(r"^build [^\n]*: CXX_(?:SHARED_LIBRARY|MODULE_LIBRARY|EXECUTABLE)_LINKER__.*?\n\n", text, re.M | re.S):
+    kinds = "|".join(KINDS)
+    for block in re.findall(rf"^build [^\n]*: CXX_(?:{kinds})_LINKER__.*?\n\n", text, re.M | re.S):
         file, kind, target = re.match(r"build (\S+).*?: CXX_([A-Z_]+)_LINKER__(\w+)_Release ", block).groups()
         flags = re.search(r"^  LINK_FLAGS = (.*)$", block, re.M)
         yield target, kind, file, flags.group(1) if flags else ""
@@ -42,8 +44,8 @@ def links_of(folder):
 
 def link(folder, kind, flags):
     """Links the decoder with these options. What the linker prints if it fails, else nothing."""
-    done = run(*CLANG, *KINDS[kind], "-fuse-ld=lld", "-nostdlib", "-Wl,-undefined,dynamic_lookup", "-Wl,-all_load", *flags.split(),
-               folder / "libmicrotin_decoder.a", "-o", folder / "linked")  # fmt: skip
+    whole = ["-nostdlib", "-Wl,-undefined,dynamic_lookup", "-Wl,-all_load", folder / "libmicrotin_decoder.a"]
+    done = run(*CLANG, *KINDS[kind], "-fuse-ld=lld", *flags.split(), *whole, "-o", folder / "linked")
     return done.stderr if done.returncode != 0 else ""
 
 
@@ -88,14 +90,16 @@ def main():
     shutil.rmtree(folder, ignore_errors=True)
     header = (ROOT / "decoder/include/microtin/microtin.h").read_text()
     version = ".".join(re.findall(r"define MICROTIN_VERSION_[A-Z]+ (\d+)", header))
+    gdal = "ON" if shutil.which("gdal-config") else "OFF"
     must_run("cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "--toolchain", ROOT / "tests/ports/macos.cmake",
              "-DCMAKE_BUILD_TYPE=Release", "-DMICROTIN_WERROR=ON", "-DMICROTIN_TESTS=OFF", "-DMICROTIN_TOOLS=ON",
-             "-DMICROTIN_QGIS_DRIVER=ON", f"-DMICROTIN_GDAL_DRIVER={'ON' if shutil.which('gdal-config') else 'OFF'}")  # fmt: skip
+             "-DMICROTIN_QGIS_DRIVER=ON", f"-DMICROTIN_GDAL_DRIVER={gdal}")  # fmt: skip
     must_run("cmake", "--build", folder, "--target", "microtin_decoder")
     found = [*faults(folder, version), *missed(folder)]
     for fault in found:
         print(f"rejected: {fault}")
-    print(f"macOS: {len(list(links_of(folder)))} files are linked with lld, {len(found)} rejected; the encoder is not compiled")
+    links = len(list(links_of(folder)))
+    print(f"macOS: {links} files are linked with lld, {len(found)} rejected; the encoder is not compiled")
     return 1 if found else 0
 
 
