@@ -4,15 +4,14 @@
 #define MICROTIN_ENCODER_BASE_PROGRESS_HPP
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
-#include <exception>
 #include <functional>
 #include <mutex>
-#include <thread>
+#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "encoder/base/team.hpp"
 #include "encoder/layers.hpp"
 
 namespace microtin::base {
@@ -42,35 +41,34 @@ class Progress {
 };
 
 // Calls work(i) for every i < count, in any order, on as many threads as there are processors.
-// After an exception no further piece is begun; that of the smallest piece that failed is thrown.
+// Exceptions are handled as those of Team::for_each.
 template <class Work>
 void for_each_parallel(std::size_t count, const Work& work) {
-  std::atomic<std::size_t> next{0};
-  std::mutex mutex;
-  std::exception_ptr error;
-  std::size_t failed = count;
-  const auto run = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      try {
-        work(i);
-      } catch (...) {
-        next = count;
-        const std::lock_guard<std::mutex> lock(mutex);
-        if (i < failed) error = std::current_exception();
-        failed = std::min(failed, i);
-      }
-    }
-  };
-  const std::size_t wanted = std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
-  std::vector<std::thread> threads;
-  try {
-    while (threads.size() + 1 < std::min(wanted, count)) threads.emplace_back(run);
-  } catch (...) {  // without memory for more, those that are there do it
-  }
-  run();
-  for (std::thread& thread : threads) thread.join();
-  if (error) std::rethrow_exception(error);
+  Team team(std::min(processors(), count));
+  team.for_each(count, [&](std::size_t i, std::size_t) { work(i); });
 }
+
+// Progress of pieces of equal size, each of which reports its own, from any thread.
+class SharedProgress {
+ public:
+  SharedProgress(Progress progress, std::size_t pieces)
+      : progress_(std::move(progress)), done_(pieces) {}
+
+  // Must not outlive this.
+  Progress of(std::size_t piece) {
+    return Progress([this, piece](double done) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      done_[piece] = done;
+      progress_.at(std::accumulate(done_.begin(), done_.end(), 0.0) /
+                   static_cast<double>(done_.size()));
+    });
+  }
+
+ private:
+  std::mutex mutex_;
+  Progress progress_;
+  std::vector<double> done_;
+};
 
 // Progress by pieces, which may be done by several threads.
 class CountedProgress {
