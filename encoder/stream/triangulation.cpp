@@ -34,24 +34,45 @@ Triangulation::Triangulation(const std::vector<Point>& points, std::vector<Index
   for (Index t = 0; t < mesh_.triangles; ++t) note_edges(t);
 }
 
+Triangulation::Triangulation(const Triangulation& other)
+    : mesh_(other.mesh_),
+      arrays_(other.arrays_),
+      edge_of_(other.edge_of_),
+      cavity_(other.cavity_),
+      cavity_triangles_(other.cavity_triangles_),
+      cavity_origin_(other.cavity_origin_),
+      cavity_twin_(other.cavity_twin_),
+      new_triangles_(other.new_triangles_),
+      free_vertices_(other.free_vertices_),
+      free_slot_(other.free_slot_),
+      logs_(other.logs_),
+      log_(other.log_) {
+  point_at_arrays();
+}
+
 void Triangulation::set_sizes(std::size_t vertices) {
   arrays_.places.resize(vertices);
   arrays_.origin.resize(6 * vertices);
   arrays_.twin.resize(6 * vertices);
   edge_of_.resize(vertices + 1);
-  mesh_.place = arrays_.places.data();
-  mesh_.origin = arrays_.origin.data();
-  mesh_.twin = arrays_.twin.data();
+  point_at_arrays();
 }
 
 void Triangulation::set_cavity_limit(std::size_t limit) {
   cavity_triangles_.resize(limit + 2);
   cavity_origin_.resize(limit + 2);
   cavity_twin_.resize(limit + 2);
+  cavity_.limit = static_cast<Index>(limit);
+  point_at_arrays();
+}
+
+void Triangulation::point_at_arrays() {
+  mesh_.place = arrays_.places.data();
+  mesh_.origin = arrays_.origin.data();
+  mesh_.twin = arrays_.twin.data();
   cavity_.triangles = cavity_triangles_.data();
   cavity_.edge_origin = cavity_origin_.data();
   cavity_.edge_twin = cavity_twin_.data();
-  cavity_.limit = static_cast<Index>(limit);
 }
 
 // Vertex i becomes vertex order[i].
@@ -136,8 +157,10 @@ Index Triangulation::insert(Point p, Index hint) {
     v = free_vertices_.back();
     free_vertices_.pop_back();
   }
+  find_cavity(p, hint);
+  if (logs_) log_insertion(v);
   mesh_.place[v] = p;
-  connect(v, hint);
+  fan_cavity(mesh_, cavity_, v);
   new_triangles_.assign(cavity_.triangles, cavity_.triangles + cavity_.size + 2);
   if (v == mesh_.vertices) {
     ++mesh_.vertices;
@@ -166,9 +189,77 @@ void Triangulation::note_edges(Index triangle) {
   for (Index h = f; h < f + 3; ++h) edge_of_[entry(mesh_.origin[h])] = h;
 }
 
+// What an insertion or a removal overwrites: triangles, where they meet others, an edge of each
+// vertex around, the number and the slots of what was removed before.
+
+void Triangulation::log_change(Index v, bool is_insertion) {
+  log_.changes.push_back(
+      {v, free_slot_, mesh_.place[v], is_insertion, log_.triangles.size(), log_.edges.size()});
+  log_edge(v);
+}
+
+void Triangulation::log_triangle(Index slot) {
+  const Index *const origin = mesh_.origin + slot, *const twin = mesh_.twin + slot;
+  log_.triangles.push_back({slot, {origin[0], origin[1], origin[2]}, {twin[0], twin[1], twin[2]}});
+}
+
+void Triangulation::log_edge(Index v) {
+  log_.edges.push_back({v, edge_of(v)});
+}
+
+void Triangulation::log_insertion(Index v) {
+  log_change(v, true);
+  for (Index i = 0; i < cavity_.size; ++i) log_triangle(first_edge(cavity_.triangles[i]));
+  for (Index i = 0; i < cavity_.size + 2; ++i) log_edge(cavity_.edge_origin[i]);
+  log_triangle(free_slot_);
+  log_triangle(mesh_.twin[free_slot_]);
+}
+
+void Triangulation::log_removal(Index v, const Hole& hole) {
+  log_change(v, false);
+  for (const Corner* c = hole.corners; c <= hole.last; ++c) {
+    log_triangle(c->slot);
+    log_edge(c->vertex);
+  }
+}
+
+Index Triangulation::undo() {
+  const Change change = log_.changes.back();
+  for (std::size_t i = change.triangles; i < log_.triangles.size(); ++i) {
+    const Triangle& old = log_.triangles[i];
+    const bool is_free = old.origin[0] == old.origin[1];
+    for (Index k = 0; k < 3; ++k) {
+      mesh_.origin[old.slot + k] = old.origin[k];
+      mesh_.twin[old.slot + k] = old.twin[k];
+      if (!is_free) mesh_.twin[old.twin[k]] = old.slot + k;
+    }
+  }
+  for (std::size_t i = change.edges; i < log_.edges.size(); ++i) {
+    edge_of_[entry(log_.edges[i].vertex)] = log_.edges[i].edge;
+  }
+  log_.triangles.resize(change.triangles);
+  log_.edges.resize(change.edges);
+  log_.changes.pop_back();
+  mesh_.place[change.vertex] = change.place;
+  free_slot_ = change.free_slot;
+  if (change.is_insertion) {
+    free_vertices_.push_back(change.vertex);
+  } else {
+    free_vertices_.pop_back();
+  }
+  return change.vertex;
+}
+
+void Triangulation::forget_changes() {
+  log_.triangles.clear();
+  log_.edges.clear();
+  log_.changes.clear();
+}
+
 bool Triangulation::remove(Index v, Index max_degree) {
   Hole hole;
   if (!open_hole(v, max_degree, hole)) return false;
+  if (logs_) log_removal(v, hole);
   fill_hole(hole);
   edge_of_[entry(v)] = kNoEdge;
   free_vertices_.push_back(v);

@@ -43,6 +43,7 @@ class Triangulation {
   // another: quicker to build and to use. Sets `order`.
   Triangulation(const std::vector<Point>& points, std::vector<Index>& order);
 
+  Triangulation(const Triangulation& other);
   Triangulation(Triangulation&&) = default;
   Triangulation& operator=(Triangulation&&) = default;
 
@@ -88,6 +89,15 @@ class Triangulation {
   bool remove(Index v, Index max_degree);
   static constexpr Index kMaxRemovable = kMaxDegree;
 
+  // From now on the last changes can be undone, up to those that were forgotten. Insertions must
+  // not take a new number then.
+  void log_changes() { logs_ = true; }
+
+  // Takes the last insertion or removal back, with all numbers, also those of triangles, and
+  // returns the number of its vertex.
+  Index undo();
+  void forget_changes();
+
   // v will be used soon and `later` after that: spares them waiting for memory.
   void expect(Index v, Index later) const {
     prefetch(&edge_of_[entry(later)]);
@@ -109,17 +119,42 @@ class Triangulation {
     const Corner* last;
   };
 
+  // What an insertion or a removal overwrites, to be put back.
+  struct Triangle {
+    Index slot, origin[3], twin[3];
+  };
+  struct Edge {
+    Index vertex, edge;
+  };
+  struct Change {
+    Index vertex, free_slot;
+    Point place;
+    bool is_insertion;
+    std::size_t triangles, edges;  // logged before it
+  };
+  struct Log {
+    std::vector<Triangle> triangles;
+    std::vector<Edge> edges;
+    std::vector<Change> changes;
+  };
+
   static Point place(const Corner& c) {
     return {static_cast<uint16_t>(c.x), static_cast<uint16_t>(c.y)};
   }
   static Index entry(Index v) { return static_cast<Index>(v + 1u); }
   void set_sizes(std::size_t vertices);
   void set_cavity_limit(std::size_t limit);
+  void point_at_arrays();
   void renumber(const std::vector<Index>& order);
   void find_cavity(Point p, Index hint);
   Index connect(Index v, Index hint);
   void move_last_triangle(Index slot);
   void note_edges(Index triangle);
+  void log_change(Index v, bool is_insertion);
+  void log_triangle(Index slot);
+  void log_edge(Index v);
+  void log_insertion(Index v);
+  void log_removal(Index v, const Hole& hole);
   bool open_hole(Index v, Index max_corners, Hole& hole) const;
   void fill_hole(const Hole& hole);
   void fill(const Corner* first, const Corner* last, Index closing, const Corner*& freed);
@@ -138,6 +173,8 @@ class Triangulation {
   std::vector<Index> new_triangles_;
   std::vector<Index> free_vertices_;
   Index free_slot_ = kNoEdge;  // the last that a removal left over; its twin is the one before
+  bool logs_ = false;
+  Log log_;
 };
 
 }  // namespace microtin::stream

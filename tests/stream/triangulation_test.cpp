@@ -47,6 +47,40 @@ std::string fault(const Triangulation& triangulation) {
   return fault;
 }
 
+// All that attempts on a triangulation depend on.
+struct State {
+  std::vector<Index> origin, twin, edges;
+  Points points;
+
+  bool operator==(const State& other) const {
+    return origin == other.origin && twin == other.twin && edges == other.edges &&
+           points == other.points;
+  }
+};
+
+State state_of(const Triangulation& triangulation) {
+  const Mesh& mesh = triangulation.mesh();
+  State state{{mesh.origin, mesh.origin + first_edge(mesh.triangles)},
+              {mesh.twin, mesh.twin + first_edge(mesh.triangles)},
+              {},
+              live_points(triangulation)};
+  for (Index v = 0; v < mesh.vertices; ++v) state.edges.push_back(triangulation.edge_of(v));
+  state.edges.push_back(triangulation.edge_of(kInfinity));
+  return state;
+}
+
+// Whether no neighbour of v is infinity.
+bool is_inside(const Triangulation& triangulation, Index v) {
+  const Mesh& mesh = triangulation.mesh();
+  const Index start = triangulation.edge_of(v);
+  Index h = start;
+  do {
+    if (mesh.origin[next_in_triangle(h)] == kInfinity) return false;
+    h = mesh.twin[previous_in_triangle(h)];
+  } while (h != start);
+  return true;
+}
+
 // Whether it equals the triangulation built at once from the points it has now.
 bool equals_fresh(const Triangulation& triangulation) {
   const Triangulation fresh(live_points(triangulation));
@@ -267,6 +301,41 @@ TEST_CASE("triangulation: degenerate sets take no longer than others") {
         lattice_points(2, 50000, random), lattice_points(250, 250, random)}) {
     const Triangulation triangulation(points);
     CHECK(triangulation.mesh().vertices == points.size());
+  }
+}
+
+TEST_CASE("triangulation: what is undone leaves every number as it was") {
+  for (const PointSet& set : point_sets(300, 21)) {
+    CAPTURE(set.name);
+    if (on_one_line(set.points)) continue;
+    Triangulation triangulation(set.points);
+    triangulation.log_changes();
+    Random random(5);
+    for (int attempt = 0; attempt < 40; ++attempt) {
+      const State before = state_of(triangulation);
+      int changes = 0;
+      std::vector<Point> removed;
+      for (int i = 0; i < 6; ++i) {
+        const Index v = random.below(triangulation.mesh().vertices);
+        if (triangulation.has_vertex(v) && is_inside(triangulation, v) &&
+            triangulation.remove(v, Triangulation::kMaxRemovable)) {
+          removed.push_back(point_of(triangulation.mesh(), v));
+          ++changes;
+        } else if (!removed.empty()) {
+          triangulation.insert(removed.back(), triangulation.edge_of(kInfinity));
+          removed.pop_back();
+          ++changes;
+        }
+      }
+      if (attempt % 4 == 0) {
+        triangulation.forget_changes();
+        continue;
+      }
+      for (; changes > 0; --changes) triangulation.undo();
+      REQUIRE(fault(triangulation) == "");
+      REQUIRE((state_of(triangulation) == before));
+    }
+    CHECK(equals_fresh(triangulation));
   }
 }
 
