@@ -139,8 +139,10 @@ class Conforming {
   template <class Work>
   void with_surface(const Work& work) {
     const PostIndex posts(places_of(laid_.survey.samples));
-    Surface surface(laid_.survey, ErrorModel{true}, posts, tin_);
-    Decimation decimation(surface);
+    const PostLimits limits(laid_.survey, ErrorModel{true}, posts);
+    Surface surface(laid_.survey, ErrorModel{true}, posts, limits, tin_);
+    Team alone(1);
+    Decimation decimation(surface, alone);
     work(surface, decimation);
     tin_ = surface.tin();
   }

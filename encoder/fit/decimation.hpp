@@ -6,26 +6,29 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "encoder/base/progress.hpp"
-#include "encoder/fit/height_fit.hpp"
+#include "encoder/base/team.hpp"
+#include "encoder/fit/attempts.hpp"
+#include "encoder/fit/random.hpp"
 #include "encoder/fit/surface.hpp"
 #include "encoder/layers.hpp"
 
 namespace microtin::fit {
 
-// A local search. A vertex is removed if its neighbours find heights that keep all bounds around.
-// If not, it may move to a post next to it whose place costs fewer bits, to a random one near it,
-// or to one where the bound is missed, and then each of its new neighbours is tried; if none of
-// them can go, it stays there nevertheless, so that the search does not get stuck. Places are cheap
-// where both coordinates are multiples of two.
+// A local search: attempts at one vertex after the other, on several threads.
+//
+// Some vertices that are far from one another are tried at the same time, each on a surface as it
+// was before. What succeeds is then done on all of them, in order, unless what succeeded before it
+// changed something that it depends on; then it is tried again with the next ones. So the result is
+// the same for any number of threads.
 class Decimation {
  public:
-  // The surface keeps its bounds and must outlive this.
-  explicit Decimation(Surface& surface);
+  // The surface keeps its bounds. Both must outlive this.
+  Decimation(Surface& surface, Team& team);
 
   // Tries every vertex around which something has changed since it was tried last. Returns how many
   // vertices fewer there are.
@@ -41,8 +44,7 @@ class Decimation {
   void aim(double mean);
 
   // Removes vertices, or moves them to posts whose places cost no more and which are at most so
-  // near, along x and y together. Of some of these posts it takes that which helps most. Tries
-  // every vertex once, until the mean is zero.
+  // near, along x and y together. Tries every vertex once, until the mean is zero.
   void centre(int near, const Progress& progress);
 
   // Adds at most this many vertices to large triangles, those first that help most. There are never
@@ -53,55 +55,49 @@ class Decimation {
   void forget() { stale_.assign(stale_.size(), false); }
 
  private:
-  // Where a vertex was removed.
-  struct Hole {
-    std::vector<Index> ring;  // its neighbours
-    int64_t raised;           // what the surface's volume became larger by
+  // A thread's. They are all the same between passes, but for the copies of threads that had no
+  // work lately.
+  struct Worker {
+    Surface& surface;
+    Attempts attempts;
+    std::size_t edits;  // that were made
   };
-  // A vertex that could be added near another, and what that gains.
-  struct Addition {
-    int64_t gain;
-    Vertex vertex;
-    Index corner;
+  // Vertices that are tried one after the other.
+  struct Lane {
+    const Index* next;
+    const Index* end;
   };
+  using Attempt = std::function<bool(Attempts&, Index)>;
+  using Decision = std::function<bool(const Outcome&)>;
 
+  void begin_pass();
+  Worker& up_to_date(std::size_t worker);
   std::vector<Index> order_of_attempts();
-  std::size_t try_each(const Progress& progress, const std::function<bool(Index)>& attempt);
-  bool try_removal(Index v);
-  bool try_move(Index v);
-  bool try_towards_centre(Index v, int near);
-  bool move_near(Vertex old, int near, const Hole& hole);
+  static std::vector<Lane> lanes_of(const std::vector<Index>& order);
+  static double part_left(const std::vector<Lane>& lanes, std::size_t all);
+  std::size_t try_each(const Progress& progress, const Attempt& attempt, const Decision& is_wanted);
+  std::vector<Outcome> outcomes_in(const Lane& lane, std::size_t worker, const Attempt& attempt);
+  std::size_t keep_some(const std::vector<std::vector<Outcome>>& outcomes, std::vector<Lane>& lanes,
+                        const Decision& is_wanted);
+  void try_again_near(const Outcome& outcome);
   std::vector<std::array<Index, 3>> large_triangles() const;
-  std::vector<Addition> additions();
-  std::optional<Addition> addition_in(const std::array<Index, 3>& corners);
-  bool add(const Addition& addition);
+  std::vector<Attempts::Addition> additions();
   int32_t direction() const { return rise_ < 0 ? -1 : 1; }
-  int64_t gain() const { return direction() * raised_; }
-  bool try_cheaper_posts(Vertex old, const Hole& hole);
-  bool try_near(Vertex old, const Hole& hole);
-  bool try_post(Point to, Vertex old, const Hole& hole);
-  bool place(Vertex vertex, const Hole& hole);
-  bool insert(Vertex vertex, const Hole& hole);
-  std::optional<Vertex> carried(Vertex old, int x, int y) const;
-  uint16_t cheap(uint16_t coordinate);
-  int16_t nearest_height(std::size_t post) const;
+  bool has_reached_mean() const { return preferred_ * rise_ <= 0; }
   double even_part() const;
-  bool fit(const std::vector<Index>& vertices);
-  std::vector<Index> ring(Index v) const;
-  std::optional<Hole> remove(Index v);
-  void keep_edits();
-  std::size_t random_below(std::size_t limit);
 
   Surface& surface_;
-  Edits edits_;
-  HeightFit fit_;
-  std::vector<Index> fitted_;  // by the attempt in hand
-  int64_t raised_ = 0;         // by it: what the volume became larger by
-  int64_t rise_ = 0;           // of the volume, which brings the mean error to zero
-  std::vector<bool> stale_;    // by vertex: nothing has changed there since it was tried
-  Index moved_ = 0;            // inserted last
-  double cheapness_ = 0;       // how likely an odd coordinate is replaced by an even one
-  uint64_t random_ = 0;
+  Team& team_;
+  std::deque<Surface> copies_;
+  std::deque<Worker> workers_;      // the first has surface_, the others have copies of it
+  std::vector<Edits::Edit> edits_;  // that were kept in this pass
+  uint32_t passes_ = 0;
+
+  int64_t rise_ = 0;         // of the volume, which brings the mean error to zero
+  std::vector<bool> stale_;  // by vertex: nothing has changed there since it was tried
+  double cheapness_ = 0;     // how likely an odd coordinate is replaced by an even one
+  int32_t preferred_ = 0;    // direction of heights
+  RandomNumbers random_{0};
 };
 
 }  // namespace microtin::fit

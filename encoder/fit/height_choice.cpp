@@ -29,8 +29,9 @@ constexpr double kCloseness = 4, kFlatness = 30;
 
 }  // namespace
 
-HeightChoice::HeightChoice(Surface& surface, uint32_t degree, double weight)
+HeightChoice::HeightChoice(Surface& surface, Team& team, uint32_t degree, double weight)
     : surface_(surface),
+      team_(team),
       balance_(surface, weight),
       radius_(surface.mean_radius()),
       allowed_(surface.vertex_limit()) {
@@ -196,6 +197,15 @@ void HeightChoice::set_height(Index i, int32_t height) {
   });
 }
 
+// Finds those that are not known, so that only those that change on the way are left.
+void HeightChoice::find_allowed_heights() {
+  constexpr std::size_t kAtOnce = 64;
+  team_.for_each((vertex_.size() + kAtOnce - 1) / kAtOnce, [this](std::size_t part, std::size_t) {
+    const std::size_t end = std::min(vertex_.size(), (part + 1) * kAtOnce);
+    for (std::size_t i = part * kAtOnce; i < end; ++i) allowed_heights(vertex_[i]);
+  });
+}
+
 // They depend on the heights of its neighbours alone.
 const Surface::Interval& HeightChoice::allowed_heights(Index v) {
   if (!allowed_[v]) allowed_[v] = surface_.allowed_heights(v);
@@ -222,6 +232,7 @@ void HeightChoice::find_levels() {
 
 void HeightChoice::pass() {
   learn_costs();
+  find_allowed_heights();
   for (Index i = 0; i < z_.size(); ++i) choose(i);
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "encoder/base/team.hpp"
 #include "encoder/fit/balance.hpp"
 #include "encoder/fit/surface.hpp"
 #include "encoder/layers.hpp"
@@ -18,9 +19,9 @@ namespace microtin::fit {
 // Knows in which order the vertices of a surface are sent and which neighbours predict each.
 class HeightChoice {
  public:
-  // The surface keeps its bounds and must outlive this; only its heights may change meanwhile.
-  // degree: as for breadth_first_order; weight: as for Balance.
-  HeightChoice(Surface& surface, uint32_t degree, double weight);
+  // The surface keeps its bounds and must outlive this, as must the team; only its heights may
+  // change meanwhile. degree: as for breadth_first_order; weight: as for Balance.
+  HeightChoice(Surface& surface, Team& team, uint32_t degree, double weight);
 
   // Gives each vertex in turn the allowed height that makes it and those that it predicts cheapest,
   // where small errors, the source's height on flat ground and means near zero are worth some bits.
@@ -52,9 +53,11 @@ class HeightChoice {
   void choose(Index i);
   int32_t cheapest(Index i, const Surface::Interval& allowed);
   void set_height(Index i, int32_t height);
+  void find_allowed_heights();
   const Surface::Interval& allowed_heights(Index v);
 
   Surface& surface_;
+  Team& team_;
   Balance balance_;
   std::vector<Index> vertex_;  // of the surface
   std::vector<Point> place_;

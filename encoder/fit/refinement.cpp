@@ -3,6 +3,7 @@
 #include "encoder/fit/refinement.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "encoder/stream/void_triangles.hpp"
 #include "shared/interpolation.hpp"
@@ -25,25 +26,26 @@ uint64_t squared_distance(Point a, Point b) {
 }  // namespace
 
 Refinement::Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
-                       const std::vector<Point>& places)
+                       const PostLimits& limits, const std::vector<Point>& places)
     : survey_(survey),
       model_(model),
       posts_(posts),
+      limits_(limits),
       void_posts_(survey.voids),
       triangulation_(places),
       is_vertex_(survey.samples.size()),
       on_rim_(survey.samples.size()) {}
 
 Refinement::Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
-                       const std::vector<uint32_t>& corners)
-    : Refinement(survey, model, posts, places_of(survey, corners)) {
+                       const PostLimits& limits, const std::vector<uint32_t>& corners)
+    : Refinement(survey, model, posts, limits, places_of(survey, corners)) {
   for (const uint32_t s : corners) add_vertex(s, model_.vertex_height(survey_.samples[s]));
   begin();
 }
 
 Refinement::Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
-                       const Tin& tin)
-    : Refinement(survey, model, posts, places_of(tin)) {
+                       const PostLimits& limits, const Tin& tin)
+    : Refinement(survey, model, posts, limits, places_of(tin)) {
   for (const Vertex& v : tin.vertices) {
     const uint32_t s = posts.number(*posts.find({v.x, v.y}));
     add_vertex(s, model_.nearest_height(survey_.samples[s], v.z));
@@ -128,14 +130,47 @@ void Refinement::assess(Index triangle) {
   Candidate& worst = worst_[triangle];
   worst = {0, 0};
   if (!is_real(triangle)) return;
+  worst = void_[triangle] ? worst_in_void(triangle) : worst_within(triangle);
+  if (worst.urgency != 0) queue_.push({worst, triangle});
+}
+
+// Floating point rules out nearly all samples.
+Refinement::Candidate Refinement::worst_within(Index triangle) const {
   const Mesh& mesh = triangulation_.mesh();
   const Index f = first_edge(triangle);
   const Vertex a = vertex(mesh.origin[f]), b = vertex(mesh.origin[f + 1]),
                c = vertex(mesh.origin[f + 2]);
+  const Plane plane(a, b, c);
+  Candidate worst = {0, 0};
+  double least = -kLimitError;  // excess that matters
+  posts_.visit_runs({a.x, a.y}, {b.x, b.y}, {c.x, c.y}, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Point place = posts_.place(i);
+      const double error = std::abs(plane.at(place) - double{limits_.middles[i]});
+      if (error - double{limits_.radii[i]} < least) continue;
+      const uint32_t s = posts_.number(i);
+      if (is_vertex_[s]) continue;
+      const int32_t surface = height_in_triangle(a, b, c, fine(place));
+      const Candidate candidate = {model_.violation(survey_.samples[s], surface), s};
+      if (!(worst < candidate)) continue;
+      worst = candidate;
+      least = static_cast<double>(worst.urgency) / 65536 - kLimitError;
+    }
+  });
+  return worst;
+}
+
+// The worst of those that only void triangles hold, or else of those on edges of others.
+Refinement::Candidate Refinement::worst_in_void(Index triangle) const {
+  const Mesh& mesh = triangulation_.mesh();
+  const Index f = first_edge(triangle);
+  const Vertex a = vertex(mesh.origin[f]), b = vertex(mesh.origin[f + 1]),
+               c = vertex(mesh.origin[f + 2]);
+  Candidate worst = {0, 0};
   visit_under(posts_, triangle, [&](uint32_t s, Point place) {
     if (is_vertex_[s]) return;
     Candidate candidate = {0, s};
-    if (void_[triangle] && !on_covered_edge(triangle, place)) {
+    if (!on_covered_edge(triangle, place)) {
       candidate.urgency = uncovered_urgency(triangle, s);
     } else {
       const int32_t surface = height_in_triangle(a, b, c, fine(place));
@@ -143,7 +178,7 @@ void Refinement::assess(Index triangle) {
     }
     if (worst < candidate) worst = candidate;
   });
-  if (worst.urgency != 0) queue_.push({worst, triangle});
+  return worst;
 }
 
 bool Refinement::is_real(Index triangle) const {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "encoder/base/error.hpp"
+#include "encoder/base/team.hpp"
 #include "encoder/fit/decimation.hpp"
 #include "encoder/fit/error_model.hpp"
 #include "encoder/fit/height_choice.hpp"
@@ -116,7 +117,7 @@ void balance(const Surface& surface, HeightChoice& heights, std::size_t most, Fi
 
 // The mean of all nearer zero by moves and removals, farther and farther, and by a few vertices
 // more, where heights alone did not bring it there: most vertices have one allowed height.
-void centre(Surface& surface, Decimation& decimation, std::size_t most, Fitted& found,
+void centre(Surface& surface, Team& team, Decimation& decimation, std::size_t most, Fitted& found,
             const SimplifyOptions& options) {
   double mean = found.mean;
   for (uint32_t i = 0; i < kCentringRounds && !found.is_centred; ++i) {
@@ -125,7 +126,7 @@ void centre(Surface& surface, Decimation& decimation, std::size_t most, Fitted& 
     decimation.aim(mean);
     if (i > 0) decimation.add_vertices(std::max(i * surface.vertices() / kAddedPart, 1u));
     decimation.centre(static_cast<int>(std::min(kNear * (i + 1), kFar)), part);
-    HeightChoice heights(surface, usual_degree(options.effort), kCentringWeight);
+    HeightChoice heights(surface, team, usual_degree(options.effort), kCentringWeight);
     Fitted next = with_cheap_heights(surface, heights, kCentringPasses, options);
     balance(surface, heights, most, next, options);
     if (next.bytes > most) return;
@@ -136,9 +137,9 @@ void centre(Surface& surface, Decimation& decimation, std::size_t most, Fitted& 
 
 // The surface with cheaper heights and means near zero, or the one before if that was cheaper
 // nevertheless.
-Tin finished(Surface& surface, Decimation& decimation, const Tin& before,
+Tin finished(Surface& surface, Team& team, Decimation& decimation, const Tin& before,
              const SimplifyOptions& options) {
-  HeightChoice heights(surface, usual_degree(options.effort), kMeanWeight);
+  HeightChoice heights(surface, team, usual_degree(options.effort), kMeanWeight);
   const int passes = options.search == Search::kFast ? kFastPasses : kHeightPasses;
   Fitted found = with_cheap_heights(surface, heights, passes, options);
   const std::size_t allowed = bytes_of(before, options);
@@ -149,13 +150,14 @@ Tin finished(Surface& surface, Decimation& decimation, const Tin& before,
   };
   const std::size_t most = with_cost(kCentringCost);
   balance(surface, heights, with_cost(kBalanceCost), found, options);
-  if (options.centred) centre(surface, decimation, most, found, options);
+  if (options.centred) centre(surface, team, decimation, most, found, options);
   return std::move(found.tin);
 }
 
-Tin refined_surface(const Survey& survey, const PostIndex& posts, const SimplifyOptions& options) {
+Tin refined_surface(const Survey& survey, const PostIndex& posts, const PostLimits& limits,
+                    const SimplifyOptions& options) {
   const bool keep_all = !options.bounded && options.max_vertices == 0;
-  Refinement refinement(survey, ErrorModel{options.bounded}, posts,
+  Refinement refinement(survey, ErrorModel{options.bounded}, posts, limits,
                         keep_all ? all_of(survey.samples) : first_vertices(survey));
   refinement.refine(options.max_vertices != 0 ? options.max_vertices
                                               : std::numeric_limits<std::size_t>::max());
@@ -199,31 +201,36 @@ uint32_t rounds_of(Search search) {
 
 Tin simplify(const Survey& survey, const SimplifyOptions& options) {
   const PostIndex posts(places_of(survey.samples));
-  Tin refined = refined_surface(survey, posts, options);
+  const PostLimits limits(survey, ErrorModel{options.bounded}, posts);
+  Tin refined = refined_surface(survey, posts, limits, options);
   if (!options.bounded || options.max_vertices != 0 || options.search == Search::kGreedy) {
     return refined;
   }
-  Surface surface(survey, ErrorModel{true}, posts, refined);
-  Decimation decimation(surface);
+  Surface surface(survey, ErrorModel{true}, posts, limits, refined);
+  Team team(options.threads);
+  Decimation decimation(surface, team);
   decimation.remove_vertices(options.progress.part(0, kRemovalPart));
   remove_and_move(decimation, rounds_of(options.search),
                   options.progress.part(kRemovalPart, kSearchPart));
   if (options.search == Search::kTrial) return surface.tin();
-  return finished(surface, decimation, refined, after_search(options));
+  return finished(surface, team, decimation, refined, after_search(options));
 }
 
 Tin search_on(const Survey& survey, const Tin& tin, uint32_t rounds,
               const SimplifyOptions& options) {
   const PostIndex posts(places_of(survey.samples));
-  Surface surface(survey, ErrorModel{true}, posts, tin);
-  Decimation decimation(surface);
+  const PostLimits limits(survey, ErrorModel{true}, posts);
+  Surface surface(survey, ErrorModel{true}, posts, limits, tin);
+  Team team(options.threads);
+  Decimation decimation(surface, team);
   remove_and_move(decimation, rounds, options.progress.part(0, kSearchPart));
-  return finished(surface, decimation, tin, after_search(options));
+  return finished(surface, team, decimation, tin, after_search(options));
 }
 
 Tin mended(const Survey& survey, const Tin& tin) {
   const PostIndex posts(places_of(survey.samples));
-  Refinement refinement(survey, ErrorModel{true}, posts, with_fixed(survey, posts, tin));
+  const PostLimits limits(survey, ErrorModel{true}, posts);
+  Refinement refinement(survey, ErrorModel{true}, posts, limits, with_fixed(survey, posts, tin));
   refinement.refine(std::numeric_limits<std::size_t>::max());
   return refinement.tin();
 }
@@ -248,7 +255,7 @@ std::vector<int> tenths_to_try(const SimplifyOptions& options, bool has_own_boun
 
 constexpr int kOwnSteps = 4;
 
-// A source and the steps of its heights that fit it. Only one layout is in memory at a time.
+// A source, laid out with each of the steps of its heights that fit it.
 class Layouts {
  public:
   Layouts(const Source& source, const LatticeOptions& lattice, const SimplifyOptions& options)
@@ -261,30 +268,22 @@ class Layouts {
   }
 
   std::size_t size() const { return steps_.size(); }
-  const Laid& operator[](std::size_t i) {
-    if (!laid_ || at_ != i) lay_out_with(steps_[i]);
-    at_ = i;
-    return *laid_;
-  }
-  Laid take(std::size_t i) {
-    (*this)[i];
-    return std::move(*laid_);
-  }
+  std::size_t samples() const { return samples_; }
+  Laid operator[](std::size_t i) const { return laid_out_with(steps_[i]); }
 
  private:
   void find_steps(const SimplifyOptions& options);
   void try_step(Decimal step);
-  void lay_out_with(const std::optional<Decimal>& step) {
-    laid_.reset();
-    lattice_.z_step = step;
-    laid_ = lay_out(source_, lattice_);
+  Laid laid_out_with(const std::optional<Decimal>& step) const {
+    LatticeOptions lattice = lattice_;
+    lattice.z_step = step;
+    return lay_out(source_, lattice);
   }
 
   const Source& source_;
   LatticeOptions lattice_;
   std::vector<std::optional<Decimal>> steps_;  // nothing: the source's own
-  std::optional<Laid> laid_;
-  std::size_t at_ = 0;  // which one that is
+  std::size_t samples_ = 0;                    // if there is a choice of steps
 };
 
 void Layouts::find_steps(const SimplifyOptions& options) {
@@ -293,8 +292,10 @@ void Layouts::find_steps(const SimplifyOptions& options) {
   const Decimal bound = lattice_.never_below ? half(least) : least;
   const std::vector<int> all_tenths = tenths_to_try(options, !bounds_of(source_).empty());
   // The source's own step is good if it is not much smaller than the bound.
-  lay_out_with(std::nullopt);
-  const Decimal own = laid_->z_step;
+  Laid laid = laid_out_with(std::nullopt);
+  const Decimal own = laid.z_step;
+  samples_ = laid.survey.samples.size();
+  laid = {};
   const bool is_own_good = bound <= make_decimal(Wide{own.mantissa} * kOwnSteps, own.decimals);
   if (!is_own_good || all_tenths.size() != 1) {
     for (const int tenths : all_tenths) {
@@ -308,31 +309,36 @@ void Layouts::find_steps(const SimplifyOptions& options) {
 
 void Layouts::try_step(Decimal step) {
   try {
-    lay_out_with(step);
-    at_ = steps_.size();
+    laid_out_with(step);
     steps_.emplace_back(step);
   } catch (const Error&) {  // too many steps, or none where points share a place
   }
 }
 
-// The layout whose quick surface takes the fewest bytes, the first of equals, and this surface. The
-// last is in memory already.
-Approximation cheapest(Layouts& all, const SimplifyOptions& options) {
-  std::size_t fewest = 0, best = all.size();
-  Tin found;
-  for (std::size_t i = all.size(); i-- > 0;) {
+// Larger layouts are not in memory at the same time.
+constexpr std::size_t kSamplesAtOnce = std::size_t{1} << 21;
+
+// The layout whose quick surface takes the fewest bytes, the first of equals, and this surface.
+Approximation cheapest(const Layouts& all, const SimplifyOptions& options) {
+  struct Trial {
+    Tin tin;
+    std::size_t bytes;
+  };
+  std::vector<Trial> trials(all.size());
+  Team team(all.samples() <= kSamplesAtOnce ? std::min(options.threads, all.size()) : 1);
+  SharedProgress progress(options.progress, all.size());
+  team.for_each(all.size(), [&](std::size_t i, std::size_t) {
     SimplifyOptions trial = options;
     trial.search = Search::kTrial;
-    const auto after = static_cast<double>(i), total = static_cast<double>(all.size());
-    trial.progress = options.progress.part(1 - (after + 1) / total, 1 - after / total);
-    Tin tin = simplify(all[i].survey, trial);
-    const std::size_t bytes = encode(tin, {}, options.effort).size();
-    if (best != all.size() && bytes > fewest) continue;
-    fewest = bytes;
-    best = i;
-    found = std::move(tin);
-  }
-  return {all.take(best), std::move(found)};
+    trial.threads = options.threads / team.size();
+    trial.progress = progress.of(i);
+    trials[i].tin = simplify(all[i].survey, trial);
+    trials[i].bytes = bytes_of(trials[i].tin, options);
+  });
+  const auto best =
+      std::min_element(trials.begin(), trials.end(),
+                       [](const Trial& a, const Trial& b) { return a.bytes < b.bytes; });
+  return {all[static_cast<std::size_t>(best - trials.begin())], std::move(best->tin)};
 }
 
 // The part of the time that looking for the step takes.
@@ -344,10 +350,11 @@ double trial_part(Search search) {
 
 Approximation approximate(const Source& source, const LatticeOptions& lattice,
                           const SimplifyOptions& options) {
-  Layouts all(source, lattice, options);
+  const Layouts all(source, lattice, options);
   if (all.size() == 1) {
-    Tin tin = simplify(all[0].survey, options);
-    return {all.take(0), std::move(tin)};
+    Laid laid = all[0];
+    Tin tin = simplify(laid.survey, options);
+    return {std::move(laid), std::move(tin)};
   }
   const double trials = trial_part(options.search);
   SimplifyOptions part = options;

@@ -3,6 +3,7 @@
 #ifndef MICROTIN_ENCODER_FIT_SIMPLIFY_HPP
 #define MICROTIN_ENCODER_FIT_SIMPLIFY_HPP
 
+#include <cstddef>
 #include <cstdint>
 
 #include "encoder/base/progress.hpp"
@@ -28,6 +29,7 @@ struct SimplifyOptions {
   Search search = Search::kNormal;
   bool few_vertices = false;  // rather than few bytes
   bool centred = true;        // vertices move for the sake of the mean error, too
+  std::size_t threads = 1;    // that the search uses; what it finds does not depend on them
   Effort effort;              // with which the result will be encoded
   Progress progress;          // of the search
 };

@@ -16,65 +16,28 @@ namespace microtin::fit {
 
 namespace {
 
-// A triangle's height in floating point.
-class Plane {
- public:
-  Plane(Vertex a, Vertex b, Vertex c) : a_(a) {
-    const auto area = static_cast<double>(orient2d({a.x, a.y}, {b.x, b.y}, {c.x, c.y}));
-    const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z;
-    const double cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
-    along_x_ = (bz * cy - cz * by) / area;
-    along_y_ = (cz * bx - bz * cx) / area;
-  }
-
-  double at(Point p) const { return a_.z + along_x_ * (p.x - a_.x) + along_y_ * (p.y - a_.y); }
-
- private:
-  Vertex a_;
-  double along_x_, along_y_;
-};
-
-// Steps from a bound within which floating point does not say on which side a post is: middles and
-// radii are rounded to 24 bits, by at most 2^-10 and 2^-9 steps.
-constexpr double kNearlyOut = 1.0 / 64;
-
 // The least weight of a corner at a post is 2^-32, but for rounding.
 constexpr double kNoWeight = 1e-10;
 
 }  // namespace
 
-Surface::Surface(const Survey& survey, ErrorModel model, const PostIndex& posts, const Tin& tin)
+Surface::Surface(const Survey& survey, ErrorModel model, const PostIndex& posts,
+                 const PostLimits& limits, const Tin& tin)
     : survey_(survey),
       model_(model),
       posts_(posts),
+      limits_(limits),
       triangulation_(places_of(tin)),
       vertices_(static_cast<Index>(tin.vertices.size())),
       fixed_(tin.vertices.size()),
       void_(triangulation_.mesh().triangles),
       voids_(tin.voids) {
+  triangulation_.log_changes();
   heights_.reserve(tin.vertices.size());
   for (const Vertex& v : tin.vertices) heights_.push_back(v.z);
-  find_limits();
   find_voids();
   find_corners();
   find_fixed_samples();
-}
-
-void Surface::find_limits() {
-  middles_.reserve(posts_.size() + PostIndex::kReadAhead);
-  radii_.reserve(posts_.size() + PostIndex::kReadAhead);
-  for (std::size_t i = 0; i < posts_.size(); ++i) {
-    const auto [middle, radius] = model_.middle_and_radius(survey_.samples[posts_.number(i)]);
-    middles_.push_back(static_cast<float>(middle));
-    radii_.push_back(static_cast<float>(radius));
-    if (radius >= ErrorModel::kUnboundedRadius) continue;
-    ++bounded_posts_;
-    mean_radius_ += static_cast<double>(radii_.back());
-    while (4 * widest_stride_ < radius && widest_stride_ < 4096) widest_stride_ *= 2;
-  }
-  mean_radius_ /= static_cast<double>(std::max<std::size_t>(bounded_posts_, 1));
-  middles_.resize(posts_.size() + PostIndex::kReadAhead);
-  radii_.resize(posts_.size() + PostIndex::kReadAhead);
 }
 
 void Surface::find_voids() {
@@ -114,13 +77,14 @@ bool Surface::keeps_bounds(Index triangle) const {
   const Index* const corner = mesh().origin + first_edge(triangle);
   const Vertex a = vertex(corner[0]), b = vertex(corner[1]), c = vertex(corner[2]);
   const Plane plane(a, b, c);
+  const float *const middle = middles(), *const radius = radii();
   bool keeps = true;
   posts_.visit_runs(place(corner[0]), place(corner[1]), place(corner[2]),
                     [&](std::size_t first, std::size_t last) {
                       for (std::size_t i = first; i < last && keeps; ++i) {
                         const Point p = posts_.place(i);
-                        const double error = std::abs(plane.at(p) - double{middles_[i]});
-                        if (error < static_cast<double>(radii_[i]) - kNearlyOut) continue;
+                        const double error = std::abs(plane.at(p) - double{middle[i]});
+                        if (error < static_cast<double>(radius[i]) - kLimitError) continue;
                         const int32_t surface = height_in_triangle(a, b, c, fine(p));
                         keeps = model_.violation(survey_.samples[posts_.number(i)], surface) == 0;
                       }
@@ -155,8 +119,8 @@ Surface::Interval Surface::allowed_heights(Index v) const {
         const Point p = posts_.place(i);
         const double weight = own.at(p);
         if (weight < kNoWeight) continue;
-        const double others = rest.at(p), middle = double{middles_[i]}, inverse = 1 / weight;
-        const auto radius = static_cast<double>(radii_[i]);
+        const double others = rest.at(p), middle = double{middles()[i]}, inverse = 1 / weight;
+        const auto radius = static_cast<double>(radii()[i]);
         low = std::max(low, (middle - radius - others) * inverse);
         high = std::min(high, (middle + radius - others) * inverse);
         weights += weight * weight;
@@ -171,11 +135,6 @@ Surface::Interval Surface::allowed_heights(Index v) const {
           weights != 0 ? heights / weights : 0, weights};
 }
 
-Index Surface::finite_neighbour(Index v) const {
-  const Index h = edge_of(v), neighbour = mesh().origin[next_in_triangle(h)];
-  return neighbour != kInfinity ? neighbour : mesh().origin[previous_in_triangle(h)];
-}
-
 bool Surface::remove(Index v) {
   if (!triangulation_.remove(v, Triangulation::kMaxRemovable)) return false;
   --vertices_;
@@ -187,6 +146,16 @@ Index Surface::insert(Vertex vertex, Index hint) {
   heights_[v] = vertex.z;
   ++vertices_;
   return v;
+}
+
+void Surface::take_back_removal(Vertex vertex) {
+  heights_[triangulation_.undo()] = vertex.z;
+  ++vertices_;
+}
+
+void Surface::take_back_insertion() {
+  triangulation_.undo();
+  --vertices_;
 }
 
 bool Surface::can_insert(Point p, Index hint) {
@@ -236,41 +205,64 @@ Tin Surface::tin() const {
 // Remembers what changed, last first, to take it back.
 
 bool Edits::remove(Index v) {
-  const Edit edit{Edit::kRemoval, v, surface_.vertex(v), surface_.finite_neighbour(v)};
+  const Vertex before = surface_.vertex(v);
+  const Edit edit{Edit::kRemoval, v, 0, before, before};
   if (!surface_.remove(v)) return false;
   edits_.push_back(edit);
   return true;
 }
 
-Index Edits::insert(Vertex vertex, Index hint) {
-  const Index v = surface_.insert(vertex, hint);
-  edits_.push_back({Edit::kInsertion, v, vertex, 0});
+Index Edits::insert(Vertex vertex, Index neighbour) {
+  const Index v = surface_.insert(vertex, surface_.edge_of(neighbour));
+  edits_.push_back({Edit::kInsertion, v, neighbour, vertex, vertex});
   return v;
 }
 
 bool Edits::set_height(Index v, int32_t height) {
   using Range = std::numeric_limits<int16_t>;
   if (height < Range::min() || height > Range::max()) return false;
-  edits_.push_back({Edit::kHeight, v, surface_.vertex(v), 0});
-  surface_.set_height(v, static_cast<int16_t>(height));
+  const Vertex before = surface_.vertex(v);
+  const Vertex after{before.x, before.y, static_cast<int16_t>(height)};
+  edits_.push_back({Edit::kHeight, v, 0, before, after});
+  surface_.set_height(v, after.z);
   return true;
+}
+
+void Edits::commit() {
+  edits_.clear();
+  surface_.keep_changes();
 }
 
 void Edits::roll_back(std::size_t size) {
   for (; edits_.size() > size; edits_.pop_back()) {
     const Edit& edit = edits_.back();
     switch (edit.kind) {
-      case Edit::kRemoval:  // the last free number, so it gets its own again
-        surface_.insert(edit.before, surface_.edge_of(edit.neighbour));
+      case Edit::kRemoval:
+        surface_.take_back_removal(edit.before);
         break;
       case Edit::kInsertion:
-        surface_.remove(edit.vertex);
+        surface_.take_back_insertion();
         break;
       case Edit::kHeight:
         surface_.set_height(edit.vertex, edit.before.z);
         break;
     }
   }
+}
+
+void make(Surface& surface, const Edits::Edit& edit) {
+  switch (edit.kind) {
+    case Edits::Edit::kRemoval:
+      surface.remove(edit.vertex);
+      break;
+    case Edits::Edit::kInsertion:
+      surface.insert(edit.after, surface.edge_of(edit.neighbour));
+      break;
+    case Edits::Edit::kHeight:
+      surface.set_height(edit.vertex, edit.after.z);
+      break;
+  }
+  surface.keep_changes();
 }
 
 }  // namespace microtin::fit

@@ -9,17 +9,20 @@
 
 #include "encoder/fit/error_model.hpp"
 #include "encoder/fit/post_index.hpp"
+#include "encoder/fit/post_limits.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/stream/triangulation.hpp"
 #include "encoder/terrain/survey.hpp"
 
 namespace microtin::fit {
 
+// A copy has the same vertices with the same numbers, and shares what never changes.
 class Surface {
  public:
-  // The survey and the index of its samples must outlive this. The vertices of `tin` get their
-  // numbers there.
-  Surface(const Survey& survey, ErrorModel model, const PostIndex& posts, const Tin& tin);
+  // The survey, the index of its samples and their limits must outlive this. The vertices of `tin`
+  // get their numbers there.
+  Surface(const Survey& survey, ErrorModel model, const PostIndex& posts, const PostLimits& limits,
+          const Tin& tin);
 
   const Survey& survey() const { return survey_; }
   const ErrorModel& model() const { return model_; }
@@ -27,17 +30,12 @@ class Surface {
   const Mesh& mesh() const { return triangulation_.mesh(); }
   const Triangulation& triangulation() const { return triangulation_; }
 
-  // The middle of what a post allows, and how far from there its ends are, in steps: by position
-  // in the index, and PostIndex::kReadAhead numbers more.
-  const float* middles() const { return middles_.data(); }
-  const float* radii() const { return radii_.data(); }
-
-  // How many posts have a bound, and the mean of their radii.
-  std::size_t bounded_posts() const { return bounded_posts_; }
-  double mean_radius() const { return mean_radius_; }
-
-  // Steps that are worth a try where bounds are so wide: a power of two.
-  int32_t widest_stride() const { return widest_stride_; }
+  // As in PostLimits.
+  const float* middles() const { return limits_.middles.data(); }
+  const float* radii() const { return limits_.radii.data(); }
+  std::size_t bounded_posts() const { return limits_.bounded_posts; }
+  double mean_radius() const { return limits_.mean_radius; }
+  int32_t widest_stride() const { return limits_.widest_stride; }
 
   // Every vertex number is below that, those of removed vertices too.
   Index vertex_limit() const { return static_cast<Index>(heights_.size()); }
@@ -50,7 +48,6 @@ class Surface {
   void set_height(Index v, int16_t height) { heights_[v] = height; }
 
   Index edge_of(Index v) const { return triangulation_.edge_of(v); }
-  Index finite_neighbour(Index v) const;
 
   // Corners of the hull, vertices at voids and those that the survey has as fixed stay where they
   // are.
@@ -75,8 +72,14 @@ class Surface {
   // Removes a vertex that is not fixed. False, and nothing changes, if it has too many neighbours.
   bool remove(Index v);
 
-  // Adds a vertex near a half-edge, where can_insert says so.
+  // Adds a vertex near a half-edge, where can_insert says so and there were more at first.
   Index insert(Vertex vertex, Index hint);
+
+  // Takes back the last removal or insertion that was neither taken back nor kept. All numbers are
+  // as before, also those of triangles.
+  void take_back_removal(Vertex vertex);
+  void take_back_insertion();
+  void keep_changes() { triangulation_.forget_changes(); }
 
   // The triangles that the last change made, or after can_insert those that would be replaced.
   const std::vector<Index>& new_triangles() const { return triangulation_.new_triangles(); }
@@ -119,7 +122,6 @@ class Surface {
 
  private:
   int64_t volume(Index triangle) const;
-  void find_limits();
   void find_voids();
   void find_corners();
   void find_fixed_samples();
@@ -127,10 +129,7 @@ class Surface {
   const Survey& survey_;
   ErrorModel model_;
   const PostIndex& posts_;
-  std::vector<float> middles_, radii_;  // by position
-  std::size_t bounded_posts_ = 0;
-  double mean_radius_ = 0;
-  int32_t widest_stride_ = 1;
+  const PostLimits& limits_;
   Triangulation triangulation_;
   Index vertices_;
   std::vector<int16_t> heights_;      // by vertex
@@ -143,12 +142,22 @@ class Surface {
 
 class Edits {
  public:
+  // One change.
+  struct Edit {
+    enum Kind : uint8_t { kRemoval, kInsertion, kHeight } kind;
+    Index vertex;
+    Index neighbour;  // of a vertex that comes
+    Vertex before, after;
+  };
+
   // The surface must outlive this; nobody else changes it meanwhile.
   explicit Edits(Surface& surface) : surface_(surface) {}
 
-  // As those of Surface.
+  // As that of Surface.
   bool remove(Index v);
-  Index insert(Vertex vertex, Index hint);
+
+  // Adds a vertex near another one, where can_insert says so.
+  Index insert(Vertex vertex, Index neighbour);
 
   // False, and nothing changes, if the height does not fit 16 bits.
   bool set_height(Index v, int32_t height);
@@ -158,19 +167,18 @@ class Edits {
   void roll_back(std::size_t size);
 
   // Keeps them all.
-  void commit() { edits_.clear(); }
+  void commit();
+
+  // In their order.
+  const std::vector<Edit>& all() const { return edits_; }
 
  private:
-  struct Edit {
-    enum Kind : uint8_t { kRemoval, kInsertion, kHeight } kind;
-    Index vertex;
-    Vertex before;
-    Index neighbour;  // of a removed vertex
-  };
-
   Surface& surface_;
   std::vector<Edit> edits_;
 };
+
+// Makes a change that was made elsewhere. The vertices around must be as they were there.
+void make(Surface& surface, const Edits::Edit& edit);
 
 }  // namespace microtin::fit
 

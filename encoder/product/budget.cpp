@@ -238,7 +238,7 @@ class Budget {
 
   // Moves for the mean error would take more time than there is.
   SimplifyOptions simplify_for(double cost) {
-    SimplifyOptions simplify = simplify_options(options_, spending(cost));
+    SimplifyOptions simplify = simplify_options(options_, processors(), spending(cost));
     simplify.centred = false;
     return simplify;
   }

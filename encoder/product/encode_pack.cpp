@@ -40,7 +40,7 @@ PackOptions pack_options(const EncodeOptions& options, const Progress& progress)
   refuse_options_of_streams(options);
   EncodeOptions tile = options;
   tile.device_ram = 0;  // it limits tiles, by their number of vertices
-  return {options.lattice, simplify_options(tile, progress), tile_vertices(options, true),
+  return {options.lattice, simplify_options(tile, 1, progress), tile_vertices(options, true),
           options.tile_size, tile_vertices(options, false)};
 }
 

@@ -212,7 +212,8 @@ Attempt attempt(const Source& source, const EncodeOptions& options, Lessons& les
   LatticeOptions fitted = lessons.lattice;
   fitted.max_error = room;
   return assess(source, options, lessons,
-                approximate(source, fitted, simplify_options(options, progress)), Miss::kNarrows);
+                approximate(source, fitted, simplify_options(options, processors(), progress)),
+                Miss::kNarrows);
 }
 
 // A pack keeps the points' decimals, unless they reach too far for its tiles.
@@ -266,8 +267,8 @@ EncodedStream encode_everywhere(const Source& source, const EncodeOptions& optio
                                 const Progress& progress) {
   constexpr int kMostAttempts = 12;
   Lessons lessons{options.lattice, std::nullopt};
-  Approximation found =
-      approximate(source, first_fit(options.lattice), simplify_options(options, progress));
+  Approximation found = approximate(source, first_fit(options.lattice),
+                                    simplify_options(options, processors(), progress));
   for (int attempts = 1;; ++attempts) {
     const Tin tin = found.tin;
     Attempt made = assess(source, options, lessons, std::move(found), Miss::kNarrows);

@@ -90,8 +90,10 @@ uint32_t vertex_limit(const EncodeOptions& options) {
   return options.max_vertices == 0 ? fitting : std::min(options.max_vertices, fitting);
 }
 
-SimplifyOptions simplify_options(const EncodeOptions& options, const Progress& progress) {
+SimplifyOptions simplify_options(const EncodeOptions& options, std::size_t threads,
+                                 const Progress& progress) {
   SimplifyOptions simplify;
+  simplify.threads = threads;
   simplify.bounded = options.lattice.max_error.has_value();
   simplify.max_vertices = vertex_limit(options);
   simplify.search = options.search;

@@ -67,7 +67,9 @@ void refuse_options_of_streams(const EncodeOptions& options);
 // with a bound it can only refuse.
 uint32_t vertex_limit(const EncodeOptions& options);
 
-SimplifyOptions simplify_options(const EncodeOptions& options, const Progress& progress);
+// Tiles are encoded side by side, each by one thread; a stream has them all.
+SimplifyOptions simplify_options(const EncodeOptions& options, std::size_t threads,
+                                 const Progress& progress);
 
 }  // namespace microtin::product
 

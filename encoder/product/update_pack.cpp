@@ -101,7 +101,7 @@ PackOptions pack_options(const PackFile& old, const EncodeOptions& asked,
   const uint32_t vertices =
       std::max(kFewestTileVertices,
                asked.tile_vertices != 0 ? asked.tile_vertices : old.header().most_vertices);
-  return {options.lattice, simplify_options(options, {}), vertices, old.grid().width, vertices};
+  return {options.lattice, simplify_options(options, 1, {}), vertices, old.grid().width, vertices};
 }
 
 // Throws Error if a device that holds the tiles of the old pack may not hold this one.

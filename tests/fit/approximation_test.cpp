@@ -86,7 +86,7 @@ TEST_CASE("approximation: nothing is lost if nothing may be") {
 }
 
 TEST_CASE("approximation: the step is the best one, or the one that an option sets") {
-  const Raster raster = mountains(65);
+  const Raster raster = mountains(97);
   const Found chosen = find(raster, within("10"), Search::kNormal);
   CHECK(Decimal{4, 0} <= chosen.z_step);
   CHECK(chosen.z_step <= Decimal{8, 0});
@@ -99,7 +99,7 @@ TEST_CASE("approximation: the step is the best one, or the one that an option se
   }
   LatticeOptions coarse = within("1.5");
   coarse.z_step = parse_decimal("4");
-  CHECK_THROWS_AS(approximate(raster, coarse, {true, 0, Search::kFast, false, true, {}, {}}),
+  CHECK_THROWS_AS(approximate(raster, coarse, {true, 0, Search::kFast, false, true, 1, {}, {}}),
                   Error);
 }
 

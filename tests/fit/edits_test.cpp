@@ -43,8 +43,9 @@ Points places_of(const Survey& survey) {
 TEST_CASE("edits: rolled back, everything is as it was") {
   const Survey survey = bumps();
   const PostIndex posts(places_of(survey));
-  Surface surface(survey, ErrorModel{true}, posts,
-                  simplify(survey, {true, 0, Search::kGreedy, false, true, {}, {}}));
+  const PostLimits limits(survey, ErrorModel{true}, posts);
+  Surface surface(survey, ErrorModel{true}, posts, limits,
+                  simplify(survey, {true, 0, Search::kGreedy, false, true, 1, {}, {}}));
   Edits edits(surface);
   const std::vector<Place> before = vertices_of(surface);
   Random random(31);
@@ -70,7 +71,7 @@ TEST_CASE("edits: rolled back, everything is as it was") {
       const bool taken = std::any_of(now.begin(), now.end(), is_there);
       CHECK(surface.can_insert(p, hint) != taken);
       if (taken) continue;
-      edits.insert({p.x, p.y, 5}, hint);
+      edits.insert({p.x, p.y, 5}, kInfinity);
       ++inserted;
     }
   }
@@ -87,8 +88,9 @@ TEST_CASE("edits: rolled back, everything is as it was") {
 TEST_CASE("edits: heights beyond 16 bits are refused") {
   const Survey survey = bumps();
   const PostIndex posts(places_of(survey));
-  Surface surface(survey, ErrorModel{true}, posts,
-                  simplify(survey, {true, 0, Search::kGreedy, false, true, {}, {}}));
+  const PostLimits limits(survey, ErrorModel{true}, posts);
+  Surface surface(survey, ErrorModel{true}, posts, limits,
+                  simplify(survey, {true, 0, Search::kGreedy, false, true, 1, {}, {}}));
   Edits edits(surface);
   CHECK_FALSE(edits.set_height(0, 32768));
   CHECK_FALSE(edits.set_height(0, -32769));

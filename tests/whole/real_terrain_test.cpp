@@ -57,7 +57,7 @@ void check_round_trip(const Source& source, std::optional<Decimal> bound) {
   options.max_error = bound;
   const Laid laid = lay_out(source, options);
   const Tin tin =
-      simplify(laid.survey, {bound.has_value(), 0, Search::kNormal, false, true, {}, {}});
+      simplify(laid.survey, {bound.has_value(), 0, Search::kNormal, false, true, 1, {}, {}});
   Metadata metadata;
   metadata.placement = laid.placement;
   const std::vector<uint8_t> stream = encode(tin, metadata);
@@ -99,7 +99,7 @@ TEST_CASE("packs of real rasters have no cracks and keep their bound" * kSlow) {
     const Raster raster = read_centre(path, r.width, r.height);
     PackOptions options{{}, {}, r.vertices, 0};
     options.lattice.max_error = Decimal{10, 0};
-    options.simplify = {true, 0, Search::kFast, false, true, {}, {}};
+    options.simplify = {true, 0, Search::kFast, false, true, 1, {}, {}};
     const PackFile pack(write_pack(encode_pack(raster, options)));
     const BorderCount count = walk_borders(pack, raster);
     const Verification found = verify(pack, raster, options.lattice.max_error);
