@@ -172,7 +172,7 @@ std::vector<Row> rows() {
   const Setting two = bound("2"),
                 nothing = {"", [](library::Options&) {}, [](microtin_options&) {}};
   const Setting fast = setting("--fast", &W::effort, SearchEffort::kFast, &C::effort, 1u);
-  const Setting coarse = two + setting("--xy-step", &W::xy_step, &C::xy_step, "0.05");
+  const Setting coarse = two + setting("--xy-step", &W::xy_step, &C::xy_step, "0.25");
   const auto duplicates = [](const char* flags, Duplicates rule, uint32_t number) {
     return setting(flags, &W::duplicates, rule, &C::duplicates, number);
   };
