@@ -13,12 +13,15 @@ namespace {
 // takes the places that fit best.
 constexpr double kDaring = 10, kCareful = 0.8;  // the part of the search after which none does
 
-// Steps of a block's sides. All lanes' blocks, with what lies around them, fit into the cache.
+// Steps of a block's sides. All queues' blocks, with what lies around them, fit into the cache.
 constexpr int kBlock = 32;
 
-// Some vertices of each lane are tried before threads wait for one another. Lanes that are shorter
-// would get into each other's way.
-constexpr std::size_t kLanes = 16, kRun = 8, kShortestLane = 512;
+// Some vertices of each queue are tried before threads wait for one another. Queues that are
+// shorter would get into each other's way.
+constexpr std::size_t kQueues = 16, kRun = 8, kShortestQueue = 512;
+
+// Edits that wait for surfaces of threads: they take memory.
+constexpr std::size_t kMostEdits = 4096;
 
 }  // namespace
 
@@ -78,18 +81,19 @@ std::vector<Index> Decimation::order_of_attempts() {
 // Gives each thread a surface.
 void Decimation::begin_pass() {
   ++passes_;
-  edits_.clear();
-  while (workers_.size() > 1) workers_.pop_back();
-  copies_.clear();
   while (workers_.size() < team_.size()) {
     copies_.push_back(surface_);
     workers_.push_back({copies_.back(), Attempts(copies_.back()), 0});
   }
   for (Worker& worker : workers_) {
-    worker.edits = 0;
     worker.attempts.set_cheapness(cheapness_);
     worker.attempts.prefer(preferred_);
   }
+}
+
+void Decimation::end_pass() {
+  while (workers_.size() > 1) workers_.pop_back();
+  copies_.clear();
 }
 
 // Has all that was kept so far on the thread's surface, too.
@@ -99,47 +103,53 @@ Decimation::Worker& Decimation::up_to_date(std::size_t worker) {
   return own;
 }
 
-std::vector<Decimation::Lane> Decimation::lanes_of(const std::vector<Index>& order) {
+std::vector<Decimation::Queue> Decimation::queues_of(const std::vector<Index>& order) {
   if (order.empty()) return {};
-  const std::size_t count = std::clamp<std::size_t>(order.size() / kShortestLane, 1, kLanes);
-  std::vector<Lane> lanes;
+  const std::size_t count = std::clamp<std::size_t>(order.size() / kShortestQueue, 1, kQueues);
+  std::vector<Queue> queues;
   for (std::size_t i = 0; i < count; ++i) {
     const Index* const all = order.data();
-    lanes.push_back({all + order.size() * i / count, all + order.size() * (i + 1) / count});
+    queues.push_back({all + order.size() * i / count, all + order.size() * (i + 1) / count});
   }
-  return lanes;
+  return queues;
 }
 
-double Decimation::part_left(const std::vector<Lane>& lanes, std::size_t all) {
+double Decimation::part_left(const std::vector<Queue>& queues, std::size_t all) {
   std::ptrdiff_t left = 0;
-  for (const Lane& lane : lanes) left += lane.end - lane.next;
+  for (const Queue& queue : queues) left += queue.end - queue.next;
   return static_cast<double>(left) / static_cast<double>(all);
+}
+
+void Decimation::update_all() {
+  team_.for_each(workers_.size(), [this](std::size_t i, std::size_t) { up_to_date(i).edits = 0; });
+  edits_.clear();
 }
 
 std::size_t Decimation::try_each(const Progress& progress, const Attempt& attempt,
                                  const Decision& is_wanted) {
   const std::vector<Index> order = order_of_attempts();
   begin_pass();
-  std::vector<Lane> lanes = lanes_of(order);
-  std::vector<std::vector<Outcome>> outcomes(lanes.size());
+  std::vector<Queue> queues = queues_of(order);
+  std::vector<std::vector<Outcome>> outcomes(queues.size());
   std::size_t removed = 0;
-  for (std::size_t batch = 0; !lanes.empty(); ++batch) {
-    if (batch % 16 == 0) progress.at(1 - part_left(lanes, order.size()));
-    team_.for_each(lanes.size(), [&](std::size_t i, std::size_t worker) {
-      outcomes[i] = outcomes_in(lanes[i], worker, attempt);
+  for (std::size_t batch = 0; !queues.empty(); ++batch) {
+    if (batch % 16 == 0) progress.at(1 - part_left(queues, order.size()));
+    team_.for_each(queues.size(), [&](std::size_t i, std::size_t worker) {
+      outcomes[i] = outcomes_in(queues[i], worker, attempt);
     });
-    removed += keep_some(outcomes, lanes, is_wanted);
+    removed += keep_some(outcomes, queues, is_wanted);
+    if (edits_.size() > kMostEdits || queues.empty()) update_all();
   }
-  up_to_date(0);
+  end_pass();
   return removed;
 }
 
-// What comes of the next vertices of a lane.
-std::vector<Outcome> Decimation::outcomes_in(const Lane& lane, std::size_t worker,
+// What comes of the next vertices of a queue.
+std::vector<Outcome> Decimation::outcomes_in(const Queue& queue, std::size_t worker,
                                              const Attempt& attempt) {
   Worker& own = up_to_date(worker);
   std::vector<Outcome> outcomes;
-  for (const Index* v = lane.next; v != lane.end && outcomes.size() < kRun; ++v) {
+  for (const Index* v = queue.next; v != queue.end && outcomes.size() < kRun; ++v) {
     outcomes.emplace_back();
     if (!own.surface.has_vertex(*v)) continue;
     own.attempts.begin(uint64_t{passes_} << 32 | *v);
@@ -150,20 +160,20 @@ std::vector<Outcome> Decimation::outcomes_in(const Lane& lane, std::size_t worke
   return outcomes;
 }
 
-// Keeps what succeeded, in order, and lets the lanes go on. Returns how many vertices fewer there
+// Keeps what succeeded, in order, and lets the queues go on. Returns how many vertices fewer there
 // are.
 std::size_t Decimation::keep_some(const std::vector<std::vector<Outcome>>& outcomes,
-                                  std::vector<Lane>& lanes, const Decision& is_wanted) {
-  std::vector<Region> changed;  // by other lanes
+                                  std::vector<Queue>& queues, const Decision& is_wanted) {
+  std::vector<Region> changed;  // by other queues
   std::size_t removed = 0;
-  for (std::size_t i = 0; i < lanes.size(); ++i) {
+  for (std::size_t i = 0; i < queues.size(); ++i) {
     const std::size_t others = changed.size();
     for (const Outcome& outcome : outcomes[i]) {
       const auto meets = [&](const Region& region) { return region.meets(outcome.region); };
       const bool succeeds = !outcome.edits.empty();
       const auto end = changed.begin() + static_cast<std::ptrdiff_t>(others);
       if (succeeds && std::any_of(changed.begin(), end, meets)) break;  // another try
-      stale_[*lanes[i].next++] = true;
+      stale_[*queues[i].next++] = true;
       if (!succeeds || !is_wanted(outcome)) continue;
       edits_.insert(edits_.end(), outcome.edits.begin(), outcome.edits.end());
       changed.push_back(outcome.region);
@@ -171,9 +181,9 @@ std::size_t Decimation::keep_some(const std::vector<std::vector<Outcome>>& outco
       removed += outcome.is_removal ? 1 : 0;
     }
   }
-  lanes.erase(std::remove_if(lanes.begin(), lanes.end(),
-                             [](const Lane& lane) { return lane.next == lane.end; }),
-              lanes.end());
+  queues.erase(std::remove_if(queues.begin(), queues.end(),
+                              [](const Queue& queue) { return queue.next == queue.end; }),
+               queues.end());
   return removed;
 }
 

@@ -55,15 +55,14 @@ class Decimation {
   void forget() { stale_.assign(stale_.size(), false); }
 
  private:
-  // A thread's. They are all the same between passes, but for the copies of threads that had no
-  // work lately.
+  // A thread's.
   struct Worker {
     Surface& surface;
     Attempts attempts;
     std::size_t edits;  // that were made
   };
   // Vertices that are tried one after the other.
-  struct Lane {
+  struct Queue {
     const Index* next;
     const Index* end;
   };
@@ -71,14 +70,16 @@ class Decimation {
   using Decision = std::function<bool(const Outcome&)>;
 
   void begin_pass();
+  void end_pass();
   Worker& up_to_date(std::size_t worker);
+  void update_all();
   std::vector<Index> order_of_attempts();
-  static std::vector<Lane> lanes_of(const std::vector<Index>& order);
-  static double part_left(const std::vector<Lane>& lanes, std::size_t all);
+  static std::vector<Queue> queues_of(const std::vector<Index>& order);
+  static double part_left(const std::vector<Queue>& queues, std::size_t all);
   std::size_t try_each(const Progress& progress, const Attempt& attempt, const Decision& is_wanted);
-  std::vector<Outcome> outcomes_in(const Lane& lane, std::size_t worker, const Attempt& attempt);
-  std::size_t keep_some(const std::vector<std::vector<Outcome>>& outcomes, std::vector<Lane>& lanes,
-                        const Decision& is_wanted);
+  std::vector<Outcome> outcomes_in(const Queue& queue, std::size_t worker, const Attempt& attempt);
+  std::size_t keep_some(const std::vector<std::vector<Outcome>>& outcomes,
+                        std::vector<Queue>& queues, const Decision& is_wanted);
   void try_again_near(const Outcome& outcome);
   std::vector<std::array<Index, 3>> large_triangles() const;
   std::vector<Attempts::Addition> additions();
@@ -90,7 +91,7 @@ class Decimation {
   Team& team_;
   std::deque<Surface> copies_;
   std::deque<Worker> workers_;      // the first has surface_, the others have copies of it
-  std::vector<Edits::Edit> edits_;  // that were kept in this pass
+  std::vector<Edits::Edit> edits_;  // that were kept lately
   uint32_t passes_ = 0;
 
   int64_t rise_ = 0;         // of the volume, which brings the mean error to zero

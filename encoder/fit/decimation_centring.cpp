@@ -64,6 +64,7 @@ std::vector<Attempts::Addition> Decimation::additions() {
     attempts.begin(0);
     found[i] = attempts.addition_in(triangles[i]);
   });
+  end_pass();
   std::vector<Attempts::Addition> additions;
   for (const std::optional<Attempts::Addition>& addition : found) {
     if (addition && addition->gain > 0) additions.push_back(*addition);

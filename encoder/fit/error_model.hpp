@@ -18,11 +18,17 @@ namespace microtin::fit {
 struct ErrorModel {
   bool bounded;  // the surface must lie in a sample's lowest .. highest; otherwise at its height
 
+  // The lowest and the highest height that the sample allows.
+  std::pair<int32_t, int32_t> allowed(const Sample& sample) const {
+    return bounded ? std::make_pair(sample.lowest, sample.highest)
+                   : std::make_pair(sample.height, sample.height);
+  }
+
   // The distance of a surface's height from what the sample allows.
   uint64_t violation(const Sample& sample, int32_t surface) const {
-    const int64_t lowest = bounded ? sample.lowest : sample.height;
-    const int64_t highest = bounded ? sample.highest : sample.height;
-    return static_cast<uint64_t>(std::max({lowest - surface, surface - highest, int64_t{0}}));
+    const auto [lowest, highest] = allowed(sample);
+    return static_cast<uint64_t>(
+        std::max({int64_t{lowest} - surface, int64_t{surface} - highest, int64_t{0}}));
   }
 
   // The radius of a sample without a bound: no two heights are farther from each other.
@@ -31,8 +37,8 @@ struct ErrorModel {
   // The middle of what the sample allows and the distance of its ends from there, in steps.
   std::pair<double, double> middle_and_radius(const Sample& sample) const {
     if (bounded && sample.is_unbounded()) return {sample.height / 65536.0, kUnboundedRadius};
-    const double lowest = bounded ? sample.lowest : sample.height;
-    const double highest = bounded ? sample.highest : sample.height;
+    const auto [low, high] = allowed(sample);
+    const double lowest = low, highest = high;
     return {(highest + lowest) / 131072, (highest - lowest) / 131072};
   }
 

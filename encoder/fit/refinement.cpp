@@ -3,8 +3,8 @@
 #include "encoder/fit/refinement.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "encoder/fit/post_limits.hpp"
 #include "encoder/stream/void_triangles.hpp"
 #include "shared/interpolation.hpp"
 
@@ -26,26 +26,25 @@ uint64_t squared_distance(Point a, Point b) {
 }  // namespace
 
 Refinement::Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
-                       const PostLimits& limits, const std::vector<Point>& places)
+                       const std::vector<Point>& places)
     : survey_(survey),
       model_(model),
       posts_(posts),
-      limits_(limits),
       void_posts_(survey.voids),
       triangulation_(places),
       is_vertex_(survey.samples.size()),
       on_rim_(survey.samples.size()) {}
 
 Refinement::Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
-                       const PostLimits& limits, const std::vector<uint32_t>& corners)
-    : Refinement(survey, model, posts, limits, places_of(survey, corners)) {
+                       const std::vector<uint32_t>& corners)
+    : Refinement(survey, model, posts, places_of(survey, corners)) {
   for (const uint32_t s : corners) add_vertex(s, model_.vertex_height(survey_.samples[s]));
   begin();
 }
 
 Refinement::Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
-                       const PostLimits& limits, const Tin& tin)
-    : Refinement(survey, model, posts, limits, places_of(tin)) {
+                       const Tin& tin)
+    : Refinement(survey, model, posts, places_of(tin)) {
   for (const Vertex& v : tin.vertices) {
     const uint32_t s = posts.number(*posts.find({v.x, v.y}));
     add_vertex(s, model_.nearest_height(survey_.samples[s], v.z));
@@ -134,7 +133,8 @@ void Refinement::assess(Index triangle) {
   if (worst.urgency != 0) queue_.push({worst, triangle});
 }
 
-// Floating point rules out nearly all samples.
+// Floating point rules out nearly all samples. It is less than a unit from the exact height, which
+// is rounded by half of one.
 Refinement::Candidate Refinement::worst_within(Index triangle) const {
   const Mesh& mesh = triangulation_.mesh();
   const Index f = first_edge(triangle);
@@ -142,19 +142,22 @@ Refinement::Candidate Refinement::worst_within(Index triangle) const {
                c = vertex(mesh.origin[f + 2]);
   const Plane plane(a, b, c);
   Candidate worst = {0, 0};
-  double least = -kLimitError;  // excess that matters
+  constexpr double kRounding = 2;
+  double least = -kRounding;  // violation that matters
   posts_.visit_runs({a.x, a.y}, {b.x, b.y}, {c.x, c.y}, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Point place = posts_.place(i);
-      const double error = std::abs(plane.at(place) - double{limits_.middles[i]});
-      if (error - double{limits_.radii[i]} < least) continue;
       const uint32_t s = posts_.number(i);
-      if (is_vertex_[s]) continue;
+      const auto [lowest, highest] = model_.allowed(survey_.samples[s]);
+      const double height = plane.at(place) * 65536;
+      const double below = static_cast<double>(lowest) - height;
+      const double above = height - static_cast<double>(highest);
+      if (std::max(below, above) < least || is_vertex_[s]) continue;
       const int32_t surface = height_in_triangle(a, b, c, fine(place));
       const Candidate candidate = {model_.violation(survey_.samples[s], surface), s};
       if (!(worst < candidate)) continue;
       worst = candidate;
-      least = static_cast<double>(worst.urgency) / 65536 - kLimitError;
+      least = static_cast<double>(worst.urgency) - kRounding;
     }
   });
   return worst;

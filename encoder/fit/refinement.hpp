@@ -10,7 +10,6 @@
 
 #include "encoder/fit/error_model.hpp"
 #include "encoder/fit/post_index.hpp"
-#include "encoder/fit/post_limits.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/stream/triangulation.hpp"
 #include "encoder/terrain/survey.hpp"
@@ -19,14 +18,13 @@ namespace microtin::fit {
 
 class Refinement {
  public:
-  // Starts with the given samples as vertices; all others must lie within their hull. The survey,
-  // the index of its samples and their limits must outlive this.
+  // Starts with the given samples as vertices; all others must lie within their hull. The survey
+  // and the index of its samples must outlive this.
   Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
-             const PostLimits& limits, const std::vector<uint32_t>& corners);
+             const std::vector<uint32_t>& corners);
 
   // Starts with a surface through samples, at its heights or the nearest that these allow.
-  Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
-             const PostLimits& limits, const Tin& tin);
+  Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts, const Tin& tin);
 
   // Inserts samples until none is violated or there are max_vertices; samples in void triangles are
   // inserted even then.
@@ -62,7 +60,7 @@ class Refinement {
 
   // Vertices at these places are still to be added, in their order.
   Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
-             const PostLimits& limits, const std::vector<Point>& places);
+             const std::vector<Point>& places);
 
   void add_vertex(uint32_t sample, int16_t height);
   void begin();
@@ -83,7 +81,6 @@ class Refinement {
   const Survey& survey_;
   ErrorModel model_;
   const PostIndex& posts_;  // the samples
-  const PostLimits& limits_;
   PostIndex void_posts_;
   Triangulation triangulation_;
   std::vector<int16_t> heights_;  // of vertices

@@ -154,10 +154,9 @@ Tin finished(Surface& surface, Team& team, Decimation& decimation, const Tin& be
   return std::move(found.tin);
 }
 
-Tin refined_surface(const Survey& survey, const PostIndex& posts, const PostLimits& limits,
-                    const SimplifyOptions& options) {
+Tin refined_surface(const Survey& survey, const PostIndex& posts, const SimplifyOptions& options) {
   const bool keep_all = !options.bounded && options.max_vertices == 0;
-  Refinement refinement(survey, ErrorModel{options.bounded}, posts, limits,
+  Refinement refinement(survey, ErrorModel{options.bounded}, posts,
                         keep_all ? all_of(survey.samples) : first_vertices(survey));
   refinement.refine(options.max_vertices != 0 ? options.max_vertices
                                               : std::numeric_limits<std::size_t>::max());
@@ -201,11 +200,11 @@ uint32_t rounds_of(Search search) {
 
 Tin simplify(const Survey& survey, const SimplifyOptions& options) {
   const PostIndex posts(places_of(survey.samples));
-  const PostLimits limits(survey, ErrorModel{options.bounded}, posts);
-  Tin refined = refined_surface(survey, posts, limits, options);
+  Tin refined = refined_surface(survey, posts, options);
   if (!options.bounded || options.max_vertices != 0 || options.search == Search::kGreedy) {
     return refined;
   }
+  const PostLimits limits(survey, ErrorModel{true}, posts);
   Surface surface(survey, ErrorModel{true}, posts, limits, refined);
   Team team(options.threads);
   Decimation decimation(surface, team);
@@ -229,8 +228,7 @@ Tin search_on(const Survey& survey, const Tin& tin, uint32_t rounds,
 
 Tin mended(const Survey& survey, const Tin& tin) {
   const PostIndex posts(places_of(survey.samples));
-  const PostLimits limits(survey, ErrorModel{true}, posts);
-  Refinement refinement(survey, ErrorModel{true}, posts, limits, with_fixed(survey, posts, tin));
+  Refinement refinement(survey, ErrorModel{true}, posts, with_fixed(survey, posts, tin));
   refinement.refine(std::numeric_limits<std::size_t>::max());
   return refinement.tin();
 }
@@ -270,6 +268,8 @@ class Layouts {
   std::size_t size() const { return steps_.size(); }
   std::size_t samples() const { return samples_; }
   Laid operator[](std::size_t i) const { return laid_out_with(steps_[i]); }
+  // If there is but one.
+  Laid take_only() { return only_ ? std::move(*only_) : laid_out_with(steps_[0]); }
 
  private:
   void find_steps(const SimplifyOptions& options);
@@ -284,6 +284,7 @@ class Layouts {
   LatticeOptions lattice_;
   std::vector<std::optional<Decimal>> steps_;  // nothing: the source's own
   std::size_t samples_ = 0;                    // if there is a choice of steps
+  std::optional<Laid> only_;                   // laid out with the only step, if it is at hand
 };
 
 void Layouts::find_steps(const SimplifyOptions& options) {
@@ -292,10 +293,9 @@ void Layouts::find_steps(const SimplifyOptions& options) {
   const Decimal bound = lattice_.never_below ? half(least) : least;
   const std::vector<int> all_tenths = tenths_to_try(options, !bounds_of(source_).empty());
   // The source's own step is good if it is not much smaller than the bound.
-  Laid laid = laid_out_with(std::nullopt);
-  const Decimal own = laid.z_step;
-  samples_ = laid.survey.samples.size();
-  laid = {};
+  only_ = laid_out_with(std::nullopt);
+  const Decimal own = only_->z_step;
+  samples_ = only_->survey.samples.size();
   const bool is_own_good = bound <= make_decimal(Wide{own.mantissa} * kOwnSteps, own.decimals);
   if (!is_own_good || all_tenths.size() != 1) {
     for (const int tenths : all_tenths) {
@@ -303,13 +303,14 @@ void Layouts::find_steps(const SimplifyOptions& options) {
         try_step(make_decimal(Wide{bound.mantissa} * tenths, bound.decimals + 1));
     }
   }
-  if (!is_own_good && !steps_.empty()) return;
-  steps_.push_back(std::nullopt);
+  if (is_own_good || steps_.empty()) steps_.push_back(std::nullopt);
+  if (steps_.size() > 1) only_.reset();
 }
 
 void Layouts::try_step(Decimal step) {
+  only_.reset();  // two would take too much memory
   try {
-    laid_out_with(step);
+    only_ = laid_out_with(step);
     steps_.emplace_back(step);
   } catch (const Error&) {  // too many steps, or none where points share a place
   }
@@ -350,9 +351,9 @@ double trial_part(Search search) {
 
 Approximation approximate(const Source& source, const LatticeOptions& lattice,
                           const SimplifyOptions& options) {
-  const Layouts all(source, lattice, options);
+  Layouts all(source, lattice, options);
   if (all.size() == 1) {
-    Laid laid = all[0];
+    Laid laid = all.take_only();
     Tin tin = simplify(laid.survey, options);
     return {std::move(laid), std::move(tin)};
   }

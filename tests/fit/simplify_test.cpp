@@ -359,7 +359,7 @@ TEST_CASE("simplify: a longer search finds fewer vertices, always the same" * kS
   }
 }
 
-// Lanes get into each other's way where there are many of them on little ground.
+// Queues get into each other's way where there are many of them on little ground.
 TEST_CASE("simplify: the same vertices for any number of threads") {
   Random random(7);
   const auto noise = [&](int x, int y) {
