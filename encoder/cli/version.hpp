@@ -7,7 +7,7 @@
 
 namespace microtin::cli {
 
-// The library's version, as 0.1.0.
+// The library's version, as 1.0.0.
 std::string library_version();
 
 // The versions of the library and of the two formats that it reads and writes, a line each.

@@ -24,9 +24,9 @@
 #include "microtin/config.h"
 
 /* The version of this library. Build files and other languages take it from here. */
-#define MICROTIN_VERSION_MAJOR 0
+#define MICROTIN_VERSION_MAJOR 1
 /* The minor version of this library. */
-#define MICROTIN_VERSION_MINOR 1
+#define MICROTIN_VERSION_MINOR 0
 /* The patch version of this library. */
 #define MICROTIN_VERSION_PATCH 0
 

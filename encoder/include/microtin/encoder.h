@@ -39,7 +39,7 @@ const char* microtin_last_error(void);
  * call; never null. */
 const char* microtin_last_warnings(void);
 
-/* Returns the version, "0.1.0". */
+/* Returns the version, "1.0.0". */
 const char* microtin_version_string(void);
 
 /* --- Encoding --- */
