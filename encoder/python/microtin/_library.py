@@ -11,7 +11,7 @@ from ctypes import c_uint8, c_uint32, c_uint64, c_void_p
 from pathlib import Path
 from typing import Any, Optional
 
-MAJOR_VERSION = 0  # of the library whose structs are below
+MAJOR_VERSION = 1  # of the library whose structs are below
 
 
 class Error(RuntimeError):
