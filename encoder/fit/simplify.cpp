@@ -175,6 +175,9 @@ Tin with_fixed(const Survey& survey, const PostIndex& posts, Tin tin) {
   return tin;
 }
 
+// Each thread has a copy of the triangulation, about a byte for each post of a large raster.
+constexpr std::size_t kMostThreads = 8;
+
 // Parts of the time: the first attempt to remove all, and until means come last.
 constexpr double kRemovalPart = 0.1, kSearchPart = 0.8;
 
@@ -206,7 +209,7 @@ Tin simplify(const Survey& survey, const SimplifyOptions& options) {
   }
   const PostLimits limits(survey, ErrorModel{true}, posts);
   Surface surface(survey, ErrorModel{true}, posts, limits, refined);
-  Team team(options.threads);
+  Team team(std::min(options.threads, kMostThreads));
   Decimation decimation(surface, team);
   decimation.remove_vertices(options.progress.part(0, kRemovalPart));
   remove_and_move(decimation, rounds_of(options.search),
@@ -220,7 +223,7 @@ Tin search_on(const Survey& survey, const Tin& tin, uint32_t rounds,
   const PostIndex posts(places_of(survey.samples));
   const PostLimits limits(survey, ErrorModel{true}, posts);
   Surface surface(survey, ErrorModel{true}, posts, limits, tin);
-  Team team(options.threads);
+  Team team(std::min(options.threads, kMostThreads));
   Decimation decimation(surface, team);
   remove_and_move(decimation, rounds, options.progress.part(0, kSearchPart));
   return finished(surface, team, decimation, tin, after_search(options));
