@@ -26,14 +26,14 @@ using encoder::SurfaceInfo;
 struct Free {
   void operator()(microtin_surface* surface) const { microtin_surface_free(surface); }
 };
-using InC = std::unique_ptr<microtin_surface, Free>;
+using SurfaceInC = std::unique_ptr<microtin_surface, Free>;
 
 // Null if the file is refused; microtin_last_error() has the reason.
-InC opened_in_c(const std::string& path) {
+SurfaceInC opened_in_c(const std::string& path) {
   microtin_surface* surface = nullptr;
   const microtin_status status = microtin_surface_from_file(path.c_str(), &surface);
   CHECK((status == MICROTIN_STATUS_OK) == (surface != nullptr));
-  return InC(surface);
+  return SurfaceInC(surface);
 }
 
 // Positions in substeps and heights in z steps with 16 fractional bits; NaN: none.
@@ -143,7 +143,7 @@ void check_tile(const Surface& surface, microtin_surface* in_c, uint32_t tile,
 
 void check_pack(const std::filesystem::path& path, std::istream& digests) {
   const Surface surface = Surface::from_file(path.string());
-  const InC in_c = opened_in_c(path.string());
+  const SurfaceInC in_c = opened_in_c(path.string());
   REQUIRE(in_c);
   uint32_t tile = 0;
   for (std::string line, recorded; std::getline(digests, line) && std::getline(digests, recorded);
@@ -165,7 +165,7 @@ TEST_CASE("golden files: streams have the recorded heights in C++ and in C") {
     const Probes probes = read_report(
         std::filesystem::path(entry.path()).replace_extension("report").string(), vertices);
     const Surface surface = Surface::from_file(entry.path().string());
-    const InC in_c = opened_in_c(entry.path().string());
+    const SurfaceInC in_c = opened_in_c(entry.path().string());
     REQUIRE(in_c);
     CHECK(surface.info().vertices == vertices);
     check_heights(surface, in_c.get(), probes);
