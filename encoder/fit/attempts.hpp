@@ -3,7 +3,6 @@
 #ifndef MICROTIN_ENCODER_FIT_ATTEMPTS_HPP
 #define MICROTIN_ENCODER_FIT_ATTEMPTS_HPP
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

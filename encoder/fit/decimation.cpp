@@ -78,7 +78,7 @@ std::vector<Index> Decimation::order_of_attempts() {
   return order;
 }
 
-// Gives each thread a surface.
+// Gives each thread a surface, until end_pass.
 void Decimation::begin_pass() {
   ++passes_;
   while (workers_.size() < team_.size()) {
@@ -96,10 +96,10 @@ void Decimation::end_pass() {
   copies_.clear();
 }
 
-// Has all that was kept so far on the thread's surface, too.
+// Applies to the thread's surface what other threads found.
 Decimation::Worker& Decimation::up_to_date(std::size_t worker) {
   Worker& own = workers_[worker];
-  for (; own.edits < edits_.size(); ++own.edits) make(own.surface, edits_[own.edits]);
+  for (; own.edits < edits_.size(); ++own.edits) apply(own.surface, edits_[own.edits]);
   return own;
 }
 
@@ -144,7 +144,7 @@ std::size_t Decimation::try_each(const Progress& progress, const Attempt& attemp
   return removed;
 }
 
-// What comes of the next vertices of a queue.
+// Tries the next vertices of a queue, and takes all changes back.
 std::vector<Outcome> Decimation::outcomes_in(const Queue& queue, std::size_t worker,
                                              const Attempt& attempt) {
   Worker& own = up_to_date(worker);

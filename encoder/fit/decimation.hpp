@@ -21,10 +21,11 @@ namespace microtin::fit {
 
 // A local search: attempts at one vertex after the other, on several threads.
 //
-// Some vertices that are far from one another are tried at the same time, each on a surface as it
-// was before. What succeeds is then done on all of them, in order, unless what succeeded before it
-// changed something that it depends on; then it is tried again with the next ones. So the result is
-// the same for any number of threads.
+// The vertices wait in queues, which lie in different parts of the terrain. Each thread tries the
+// next vertices of a queue on a copy of the surface, and takes its changes back. Then the changes
+// that succeeded are applied to all copies, queue by queue. A change that depends on what an
+// earlier queue changed is tried again instead. So the result is the same for any number of
+// threads.
 class Decimation {
  public:
   // The surface keeps its bounds. Both must outlive this.
@@ -55,11 +56,11 @@ class Decimation {
   void forget() { stale_.assign(stale_.size(), false); }
 
  private:
-  // A thread's.
+  // What one thread works on.
   struct Worker {
     Surface& surface;
     Attempts attempts;
-    std::size_t edits;  // that were made
+    std::size_t edits;  // how many of edits_ the surface has
   };
   // Vertices that are tried one after the other.
   struct Queue {
@@ -91,7 +92,7 @@ class Decimation {
   Team& team_;
   std::deque<Surface> copies_;
   std::deque<Worker> workers_;      // the first has surface_, the others have copies of it
-  std::vector<Edits::Edit> edits_;  // that were kept lately
+  std::vector<Edits::Edit> edits_;  // that some copies may still lack
   uint32_t passes_ = 0;
 
   int64_t rise_ = 0;         // of the volume, which brings the mean error to zero

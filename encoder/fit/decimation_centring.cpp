@@ -74,7 +74,7 @@ std::vector<Attempts::Addition> Decimation::additions() {
   return additions;
 }
 
-// By their corners, since an attempt that is taken back may renumber triangles.
+// By their corners, near which a vertex is added.
 std::vector<std::array<Index, 3>> Decimation::large_triangles() const {
   std::vector<std::pair<int64_t, std::array<Index, 3>>> triangles;
   surface_.visit_covered([&](Index t) {

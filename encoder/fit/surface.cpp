@@ -250,7 +250,7 @@ void Edits::roll_back(std::size_t size) {
   }
 }
 
-void make(Surface& surface, const Edits::Edit& edit) {
+void apply(Surface& surface, const Edits::Edit& edit) {
   switch (edit.kind) {
     case Edits::Edit::kRemoval:
       surface.remove(edit.vertex);

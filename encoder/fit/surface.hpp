@@ -177,8 +177,8 @@ class Edits {
   std::vector<Edit> edits_;
 };
 
-// Makes a change that was made elsewhere. The vertices around must be as they were there.
-void make(Surface& surface, const Edits::Edit& edit);
+// Repeats a change that was made on a copy. The vertices around must be as they were there.
+void apply(Surface& surface, const Edits::Edit& edit);
 
 }  // namespace microtin::fit
 

@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -121,19 +120,7 @@ std::vector<std::pair<std::string, Bytes>> small_packs() {
 }  // namespace
 
 TEST_CASE("golden packs: small ones are read, or refused, as is recorded") {
-  // MICROTIN_WRITE_GOLDEN=1 writes packs and reports anew.
-  for (const auto& pack : small_packs()) {
-    const std::string& name = pack.first;
-    const Bytes& bytes = pack.second;
-    CAPTURE(name);
-    const std::string report = report_of_tiles(bytes);
-    if (std::getenv("MICROTIN_WRITE_GOLDEN") != nullptr) {
-      write_file(golden(name + ".mtp"), bytes);
-      write_file(golden(name + ".report"), {report.begin(), report.end()});
-    }
-    CHECK(bytes == bytes_of_file(golden(name + ".mtp")));
-    CHECK(report == read_file(golden(name + ".report")));
-  }
+  for (const auto& [name, bytes] : small_packs()) check_golden_pack(name, bytes);
 }
 
 TEST_CASE("golden packs: the mixed one keeps what it states, and states what it is to have") {
