@@ -374,6 +374,7 @@ TEST_CASE("simplify: the same vertices for any number of threads") {
   const std::pair<Survey, Search> cases[] = {
       {raster(80, 90, noise, 3 * kStep / 2, pond), Search::kFast},
       {raster(50, 50, noise, kStep), Search::kNormal},
+      {raster(64, 200, noise, 5 * kStep / 4), Search::kFast},
       {raster(120, 90, plain, 5 * kStep / 2), Search::kFast}};
   for (const auto& [survey, search] : cases) {
     SimplifyOptions options = bounded();
