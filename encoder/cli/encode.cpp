@@ -404,13 +404,7 @@ void run_merge(const std::vector<std::string>& shards, const std::string& output
   expect_own_suffix(output, true);
   OutputFile out(output);
   StreamSpool streams(output);
-  if (!is_pack(*open_file(shards[0]))) {
-    deliver(out, output, pack_report(join_shards(shards, streams, out)));
-    return;
-  }
-  const PackContent pack = join_packs(shards, streams);
-  write_pack(pack, streams, out);
-  deliver(out, output, pack_report(report_of(pack)));
+  deliver(out, output, pack_report(merge_parts(shards, streams, out)));
 }
 
 }  // namespace microtin::cli

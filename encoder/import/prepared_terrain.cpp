@@ -352,9 +352,10 @@ void shape(Source& source, const Preparation& preparation, std::optional<BoundMa
   if (!preparation.obstacles.empty()) raise_to_obstacles(source, preparation);
 }
 
-Source prepared_terrain(const std::string& path, const Preparation& preparation) {
+Source prepared_terrain(const std::string& path, const Preparation& preparation,
+                        std::optional<BoundMap> map) {
   Source source = without_bounds(path, preparation);
-  shape(source, preparation);
+  shape(source, preparation, std::move(map));
   return source;
 }
 
@@ -370,14 +371,14 @@ void cut_to_area(OpenSource& source, const Preparation& preparation) {
   }
 }
 
-void add_bounds(OpenSource& source, const Preparation& preparation) {
+void add_bounds(OpenSource& source, const Preparation& preparation, std::optional<BoundMap> map) {
   if (auto* const cloud = std::get_if<PointCloud>(&source)) {
-    const auto map = bound_map_of(preparation, cloud->reference.horizontal_unit);
+    map = bound_map_of(preparation, cloud->reference.horizontal_unit, std::move(map));
     if (map) map->bound(*cloud);
     return;
   }
   auto& raster = std::get<std::unique_ptr<RasterReader>>(source);
-  auto map = bound_map_of(preparation, raster->frame().reference.horizontal_unit);
+  map = bound_map_of(preparation, raster->frame().reference.horizontal_unit, std::move(map));
   if (!map) return;
   raster = with_bounds(std::move(raster), std::make_shared<const BoundMap>(std::move(*map)));
 }
@@ -390,10 +391,11 @@ void raise_to_obstacles(OpenSource& source, const Preparation& preparation) {
 
 }  // namespace
 
-OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
+OpenSource prepared_source(const std::string& path, const Preparation& preparation,
+                           std::optional<BoundMap> map) {
   OpenSource source = prepared(path, parts_of(path, preparation), preparation);
   if (has_area(preparation)) cut_to_area(source, preparation);
-  add_bounds(source, preparation);
+  add_bounds(source, preparation, std::move(map));
   if (!preparation.obstacles.empty()) raise_to_obstacles(source, preparation);
   return source;
 }

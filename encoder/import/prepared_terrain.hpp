@@ -63,11 +63,14 @@ std::vector<std::string> files_of(const std::string& path, const Preparation& pr
 void shape(Source& source, const Preparation& preparation,
            std::optional<BoundMap> map = std::nullopt);
 
-// Throws Error naming the file.
-Source prepared_terrain(const std::string& path, const Preparation& preparation);
+// Throws Error naming the file. `map` is as for `shape`.
+Source prepared_terrain(const std::string& path, const Preparation& preparation,
+                        std::optional<BoundMap> map = std::nullopt);
 
 // Opens a prepared source whose raster is read in pieces. Throws Error when a piece is read, too.
-OpenSource prepared_source(const std::string& path, const Preparation& preparation);
+// `map` is as for `shape`.
+OpenSource prepared_source(const std::string& path, const Preparation& preparation,
+                           std::optional<BoundMap> map = std::nullopt);
 
 // Parts of a sentence about what was done to a terrain: empty if nothing was.
 std::string describe_preparation(const Mended& mended, const std::string& selection);

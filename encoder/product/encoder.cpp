@@ -18,7 +18,9 @@
 #include "encoder/import/reference.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
+#include "encoder/product/pack_parts.hpp"
 #include "encoder/terrain/clouds.hpp"
+#include "encoder/terrain/raster_scan.hpp"
 #include "encoder/terrain/voids.hpp"
 
 namespace microtin::encoder {
@@ -26,8 +28,9 @@ namespace microtin::encoder {
 using base::Error;
 
 struct SourceTerrain::Content {
-  std::shared_ptr<const terrain::Source> source;
+  std::shared_ptr<const terrain::Source> source;            // null: what is in the files
   std::shared_ptr<const terrain::Raster> bounds = nullptr;  // of its posts; null: one for all
+  std::vector<std::string> files = {};
 };
 
 namespace {
@@ -286,35 +289,97 @@ terrain::Reference asked_of(const Options& options) {
   return asked;
 }
 
+// The raster of bounds that the caller gave, unless a file replaces it.
+std::optional<importing::BoundMap> own_map(const SourceTerrain::Content& content,
+                                           const importing::Preparation& preparation) {
+  if (content.bounds == nullptr || !preparation.error_map.empty()) return std::nullopt;
+  return importing::BoundMap(base::parameter("error_map"),
+                             std::make_unique<KeptRaster>(*content.bounds), preparation.max_error);
+}
+
+// How files are read, in the units that are asked for.
+importing::Preparation preparation_of(const std::vector<std::string>& files,
+                                      const Options& options) {
+  importing::Preparation preparation = preparation_of(options);
+  preparation.more_files.assign(files.begin() + 1, files.end());
+  preparation.asked = asked_of(options);
+  return preparation;
+}
+
+terrain::Source read_files(const SourceTerrain::Content& content, const Options& options) {
+  const importing::Preparation preparation = preparation_of(content.files, options);
+  return importing::prepared_terrain(content.files[0], preparation, own_map(content, preparation));
+}
+
 // A terrain in the units that are asked for, shaped by files: a copy only where that changes it.
 class SettledTerrain {
  public:
   SettledTerrain(const SourceTerrain::Content& content, const Options& options)
-      : source_(*content.source),
-        settled_(importing::settle(terrain::reference_of(source_), asked_of(options))) {
-    const bool is_plain = importing::is_plain(settled_.conversion);
+      : source_(content.source.get()) {
+    if (source_ == nullptr) {
+      changed_ = read_files(content, options);
+      reference_ = terrain::reference_of(*changed_);
+      return;
+    }
+    const importing::SettledReference settled =
+        importing::settle(terrain::reference_of(*source_), asked_of(options));
+    reference_ = settled.reference;
+    const importing::Preparation preparation = preparation_of(options);
+    const bool is_plain = importing::is_plain(settled.conversion);
     const bool has_files = !options.error_map.empty() || !options.area.empty() ||
                            !options.route.empty() || !options.obstacles.empty();
-    const bool has_own_map = content.bounds != nullptr && options.error_map.empty();
-    const importing::Preparation preparation = preparation_of(options);
-    if (is_plain && !has_files && !has_own_map) return;
-    changed_ = source_;
-    if (!is_plain) importing::convert(*changed_, settled_);
-    std::optional<importing::BoundMap> map;
-    if (has_own_map) {
-      map.emplace(base::parameter("error_map"), std::make_unique<KeptRaster>(*content.bounds),
-                  preparation.max_error);
-    }
+    std::optional<importing::BoundMap> map = own_map(content, preparation);
+    if (is_plain && !has_files && !map) return;
+    changed_ = *source_;
+    if (!is_plain) importing::convert(*changed_, settled);
     importing::shape(*changed_, preparation, std::move(map));
   }
 
-  const terrain::Source& source() const { return changed_ ? *changed_ : source_; }
-  const terrain::Reference& reference() const { return settled_.reference; }
+  const terrain::Source& source() const { return changed_ ? *changed_ : *source_; }
+  const terrain::Reference& reference() const { return reference_; }
 
  private:
-  const terrain::Source& source_;
-  importing::SettledReference settled_;
+  const terrain::Source* source_;
+  terrain::Reference reference_;
   std::optional<terrain::Source> changed_;
+};
+
+// A terrain as packs are made of it: a raster is read in pieces, from files or from memory.
+class TiledTerrain {
+ public:
+  TiledTerrain(const SourceTerrain::Content& content, const Options& options) {
+    if (content.source == nullptr) {
+      const importing::Preparation preparation = preparation_of(content.files, options);
+      source_ =
+          importing::prepared_source(content.files[0], preparation, own_map(content, preparation));
+      if (auto* const raster = std::get_if<std::unique_ptr<terrain::RasterReader>>(&source_)) {
+        raster_ = std::move(*raster);
+      } else {
+        cloud_ = &std::get<terrain::PointCloud>(source_);
+      }
+      return;
+    }
+    settled_.emplace(content, options);
+    if (const auto* const raster = std::get_if<terrain::Raster>(&settled_->source())) {
+      raster_ = std::make_unique<KeptRaster>(*raster);
+    } else {
+      cloud_ = &std::get<terrain::PointCloud>(settled_->source());
+    }
+  }
+
+  // Null: there are points.
+  const terrain::RasterReader* raster() const { return raster_.get(); }
+  const terrain::PointCloud& cloud() const { return *cloud_; }
+  const terrain::Reference& reference() const {
+    if (settled_) return settled_->reference();
+    return raster_ ? raster_->frame().reference : cloud_->reference;
+  }
+
+ private:
+  importing::OpenSource source_;
+  std::optional<SettledTerrain> settled_;
+  std::unique_ptr<terrain::RasterReader> raster_;
+  const terrain::PointCloud* cloud_ = nullptr;
 };
 
 // Ends the work by an exception when the caller cancels it.
@@ -400,13 +465,13 @@ Report report_of(const product::PackReport& pack, uint64_t samples) {
   return report;
 }
 
-Report encode_posts(const terrain::Raster& raster, const product::EncodeOptions& options,
+Report encode_posts(const terrain::RasterReader& raster, const product::EncodeOptions& options,
                     const std::string& path, files::OutputFile& out, const Callbacks& callbacks) {
   files::StreamSpool streams(path);
   const pack::PackContent pack =
-      product::encode_pack(KeptRaster(raster), options, streams, progress_of(callbacks));
+      product::encode_pack(raster, options, streams, progress_of(callbacks));
   product::write_pack(pack, streams, out);
-  return report_of(product::report_of(pack), posts_with_height(raster));
+  return report_of(product::report_of(pack), 0);
 }
 
 Report encode_points(const terrain::PointCloud& cloud, const product::EncodeOptions& options,
@@ -422,22 +487,57 @@ bool has_map(const SourceTerrain& terrain, const Options& options) {
   return !options.error_map.empty() || terrain.content().bounds != nullptr;
 }
 
-std::vector<std::string> warnings_on(const SettledTerrain& terrain) {
-  std::vector<std::string> warnings = importing::completed(terrain.reference()).warnings;
-  const std::string fill =
-      std::visit([](const auto& one) { return terrain::warning_on_fill(one); }, terrain.source());
+// Warnings about units and systems, and of a text that is not empty.
+std::vector<std::string> warnings_on(const terrain::Reference& reference, const std::string& fill) {
+  std::vector<std::string> warnings = importing::completed(reference).warnings;
   if (!fill.empty()) warnings.push_back(fill);
-  if (const auto* const cloud = std::get_if<terrain::PointCloud>(&terrain.source())) {
-    const std::string grid = terrain::warning_on_grid(*cloud);
-    if (!grid.empty()) warnings.push_back(grid);
-    return warnings;
-  }
-  const auto elsewhere = std::get<terrain::Raster>(terrain.source()).mended.obstacles_elsewhere;
-  if (elsewhere != 0) {
-    warnings.push_back(base::parameter("obstacles") +
-                       ": touching no post with a height: " + std::to_string(elsewhere));
-  }
   return warnings;
+}
+
+std::vector<std::string> warnings_on(const terrain::Reference& reference,
+                                     const terrain::PointCloud& cloud) {
+  std::vector<std::string> warnings = warnings_on(reference, terrain::warning_on_fill(cloud));
+  const std::string grid = terrain::warning_on_grid(cloud);
+  if (!grid.empty()) warnings.push_back(grid);
+  return warnings;
+}
+
+void warn_of_obstacles(uint64_t elsewhere, std::vector<std::string>& warnings) {
+  if (elsewhere == 0) return;
+  warnings.push_back(base::parameter("obstacles") +
+                     ": touching no post with a height: " + std::to_string(elsewhere));
+}
+
+std::vector<std::string> warnings_on(const SettledTerrain& terrain) {
+  const auto* const raster = std::get_if<terrain::Raster>(&terrain.source());
+  if (raster == nullptr) {
+    return warnings_on(terrain.reference(), std::get<terrain::PointCloud>(terrain.source()));
+  }
+  std::vector<std::string> warnings =
+      warnings_on(terrain.reference(), terrain::warning_on_fill(*raster));
+  warn_of_obstacles(raster->mended.obstacles_elsewhere, warnings);
+  return warnings;
+}
+
+// Reads the raster once.
+void add_scan(Report& report, const TiledTerrain& terrain) {
+  const terrain::RasterReader& raster = *terrain.raster();
+  const terrain::RasterScan scanned = terrain::scan(raster, {}, false, {});
+  report.samples = scanned.posts;
+  report.warnings = warnings_on(
+      terrain.reference(), terrain::warning_on_fill(scanned.extremes, raster.frame().decimals));
+  warn_of_obstacles(scanned.mended.obstacles_elsewhere, report.warnings);
+}
+
+// The options of a pack, or of a shard, of a terrain.
+product::EncodeOptions pack_options_of(const SourceTerrain& terrain, const Options& options) {
+  check_pack_options(options, has_map(terrain, options));
+  return options_of(options);
+}
+
+const terrain::RasterReader& posts_of(const TiledTerrain& terrain) {
+  expect(terrain.raster() != nullptr, "only packs of rasters have shards, and these are points");
+  return *terrain.raster();
 }
 
 }  // namespace
@@ -465,9 +565,15 @@ SourceTerrain SourceTerrain::from_file(const std::string& path) {
       Content{std::make_shared<terrain::Source>(importing::import_terrain(path))}));
 }
 
+SourceTerrain SourceTerrain::from_files(const std::vector<std::string>& paths) {
+  expect(!paths.empty(), "no file of the terrain is named");
+  for (const std::string& path : paths) importing::files_in(path);
+  return SourceTerrain(std::make_shared<Content>(Content{nullptr, nullptr, paths}));
+}
+
 void SourceTerrain::set_error_map(RasterData bounds) {
   auto map = std::make_shared<terrain::Raster>(raster_of(std::move(bounds)));
-  content_ = std::make_shared<Content>(Content{content_->source, std::move(map)});
+  content_ = std::make_shared<Content>(Content{content_->source, std::move(map), content_->files});
 }
 
 Stream encode_stream(const SourceTerrain& terrain, const Options& options,
@@ -485,17 +591,61 @@ Stream encode_stream(const SourceTerrain& terrain, const Options& options,
 
 Report encode_pack(const SourceTerrain& terrain, const Options& options, const std::string& path,
                    const Callbacks& callbacks) {
-  check_pack_options(options, has_map(terrain, options));
-  product::EncodeOptions all = options_of(options);
-  const SettledTerrain settled(terrain.content(), options);
-  all.reference = settled.reference();
+  product::EncodeOptions all = pack_options_of(terrain, options);
+  const TiledTerrain tiled(terrain.content(), options);
+  all.reference = tiled.reference();
   files::OutputFile out(path);
-  const terrain::Source& source = settled.source();
-  const auto* const raster = std::get_if<terrain::Raster>(&source);
-  Report report = raster != nullptr
-                      ? encode_posts(*raster, all, path, out, callbacks)
-                      : encode_points(std::get<terrain::PointCloud>(source), all, out);
-  report.warnings = warnings_on(settled);
+  Report report;
+  if (tiled.raster() != nullptr) {
+    report = encode_posts(*tiled.raster(), all, path, out, callbacks);
+    add_scan(report, tiled);
+  } else {
+    report = encode_points(tiled.cloud(), all, out);
+    report.warnings = warnings_on(tiled.reference(), tiled.cloud());
+  }
+  out.commit();
+  return report;
+}
+
+std::vector<Shard> plan_shards(const SourceTerrain& terrain, const Options& options, uint32_t count,
+                               const Callbacks& callbacks) {
+  expect(count != 0, "a pack has at least one shard");
+  product::EncodeOptions all = pack_options_of(terrain, options);
+  const TiledTerrain tiled(terrain.content(), options);
+  all.reference = tiled.reference();
+  std::vector<Shard> shards;
+  for (const product::ShardPlan& plan :
+       product::plan_shards(posts_of(tiled), all, count, progress_of(callbacks))) {
+    shards.push_back({plan.tile_size, to_string(plan.z_step), plan.tiles.first, plan.tiles.last});
+  }
+  return shards;
+}
+
+Report encode_shard(const SourceTerrain& terrain, const Options& options, const Shard& shard,
+                    const std::string& path, const Callbacks& callbacks) {
+  Options planned = options;
+  planned.tile_size = shard.tile_size;
+  planned.z_step = shard.z_step;
+  product::EncodeOptions all = pack_options_of(terrain, planned);
+  expect(shard.first_tile <= shard.last_tile, "a shard ends before its first tile");
+  const TiledTerrain tiled(terrain.content(), planned);
+  all.reference = tiled.reference();
+  files::OutputFile out(path);
+  const product::ShardReport made = product::encode_shard(
+      posts_of(tiled), all, {shard.first_tile, shard.last_tile}, out, progress_of(callbacks));
+  out.commit();
+  Report report;
+  report.vertices = made.vertices;
+  report.tiles = made.tiles.last - made.tiles.first + 1;
+  report.warnings = warnings_on(tiled.reference(), "");
+  return report;
+}
+
+Report merge_packs(const std::vector<std::string>& parts, const std::string& path) {
+  expect(!parts.empty(), "no shard or pack is named");
+  files::OutputFile out(path);
+  files::StreamSpool streams(path);
+  Report report = report_of(product::merge_parts(parts, streams, out), 0);
   out.commit();
   return report;
 }

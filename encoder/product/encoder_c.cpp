@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "encoder/base/error.hpp"
 #include "microtin/encoder.h"
@@ -71,6 +73,16 @@ std::string text_of(const char* text) {
 template <class Pointer>
 void expect(Pointer* pointer) {
   if (pointer == nullptr) throw Error("a pointer is null");
+}
+
+std::vector<std::string> texts_of(const char* const* texts, uint64_t count) {
+  if (count != 0) expect(texts);
+  std::vector<std::string> all;
+  for (uint64_t i = 0; i < count; ++i) {
+    expect(texts[i]);
+    all.emplace_back(texts[i]);
+  }
+  return all;
 }
 
 // Structs begin with their size as the caller's version of the header has it. What the caller does
@@ -390,6 +402,11 @@ microtin_status microtin_source_from_file(const char* path, microtin_source** so
   return make(source, [&] { return SourceTerrain::from_file(text_of(path)); });
 }
 
+microtin_status microtin_source_from_files(const char* const* paths, uint64_t count,
+                                           microtin_source** source) {
+  return make(source, [&] { return SourceTerrain::from_files(texts_of(paths, count)); });
+}
+
 microtin_status microtin_source_set_error_map(microtin_source* source,
                                               const microtin_raster_data* bounds) {
   return guarded([&] {
@@ -432,6 +449,54 @@ microtin_status microtin_encode_pack(const microtin_source* source, const microt
     if (report != nullptr) expect_struct(report);
     const microtin_options given = read_struct(options);
     copy_report(encode_pack(source->terrain, options_of(given), path, callbacks_of(given)), report);
+  });
+}
+
+microtin_status microtin_plan_shards(const microtin_source* source, const microtin_options* options,
+                                     uint32_t count, microtin_shard* shards, uint32_t* planned) {
+  return guarded([&] {
+    expect(source);
+    expect_struct(shards);
+    expect(planned);
+    const microtin_options given = read_struct(options);
+    const std::vector<Shard> found =
+        plan_shards(source->terrain, options_of(given), count, callbacks_of(given));
+    const size_t size = shards->size;
+    auto* to = reinterpret_cast<unsigned char*>(shards);
+    for (const Shard& shard : found) {
+      microtin_shard all{0, shard.tile_size, shard.first_tile, shard.last_tile, {}};
+      copy_decimal(shard.z_step, all.z_step);
+      std::memcpy(to, &size, sizeof size);
+      write_struct(all, reinterpret_cast<microtin_shard*>(to));
+      to += size;
+    }
+    *planned = static_cast<uint32_t>(found.size());
+  });
+}
+
+microtin_status microtin_encode_shard(const microtin_source* source,
+                                      const microtin_options* options, const microtin_shard* shard,
+                                      const char* path, microtin_report* report) {
+  return guarded([&] {
+    expect(source);
+    expect(path);
+    if (report != nullptr) expect_struct(report);
+    const microtin_options given = read_struct(options);
+    const microtin_shard part = read_struct(shard);
+    const std::string z_step(part.z_step, std::find(part.z_step, std::end(part.z_step), '\0'));
+    copy_report(encode_shard(source->terrain, options_of(given),
+                             {part.tile_size, z_step, part.first_tile, part.last_tile}, path,
+                             callbacks_of(given)),
+                report);
+  });
+}
+
+microtin_status microtin_merge_packs(const char* const* parts, uint64_t count, const char* path,
+                                     microtin_report* report) {
+  return guarded([&] {
+    expect(path);
+    if (report != nullptr) expect_struct(report);
+    copy_report(merge_packs(texts_of(parts, count), path), report);
   });
 }
 

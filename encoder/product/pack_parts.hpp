@@ -10,6 +10,7 @@
 #include "encoder/files/output.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
+#include "encoder/product/encode_pack.hpp"
 
 namespace microtin::product {
 
@@ -23,6 +24,11 @@ PackContent cut_pack(const std::string& path, const Extent& extent, StreamSpool&
 // must be the same; tiles in none have no terrain. Throws Error naming the pack that does not go
 // with the first, also if borders differ.
 PackContent join_packs(const std::vector<std::string>& paths, StreamSpool& streams);
+
+// Joins shards, or packs, by what the first file is, and writes the pack. Throws Error as
+// join_shards and join_packs do.
+PackReport merge_parts(const std::vector<std::string>& paths, StreamSpool& streams,
+                       OutputFile& out);
 
 }  // namespace microtin::product
 

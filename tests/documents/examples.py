@@ -27,7 +27,8 @@ BEFORE = {
     "decoder/docs/rtos.md": READ_CARD + "void lock(void), unlock(void), sleep_ms(int milliseconds);\n",
     "encoder/docs/library.md": "#include <stdio.h>\n#include <string.h>\nstatic uint32_t columns, rows;\n"
     "static const float* heights;\n#ifdef __cplusplus\nstatic microtin::encoder::Transform transform;\n"
-    "void save(const std::vector<uint8_t>& bytes);\n#else\nstatic double transform[6];\n"
+    "void save(const std::vector<uint8_t>& bytes);\nstd::string name_of(const microtin::encoder::Shard& shard);\n"
+    "static microtin::encoder::Options options;\nstatic std::vector<std::string> shard_files;\n#else\nstatic double transform[6];\n"
     "void save(const uint8_t* bytes, uint64_t byte_count);\n#endif\n",
 }
 HEADERS = {"c": ("requests.h",), "cpp": ("microtin.hpp", "compact_pack.hpp", "requests.h")}

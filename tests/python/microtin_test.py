@@ -4,6 +4,8 @@
 import doctest
 import inspect
 import os
+import pathlib
+import pickle
 import shlex
 import subprocess
 import sys
@@ -356,6 +358,72 @@ class Packs(unittest.TestCase):
         with self.assertRaisesRegex(microtin.Error, "bytes: tile 11: damaged"):
             tin.raster()
         self.assertGreater(len(tin.tile(0, 0).vertices), 0)
+
+
+class Files(unittest.TestCase):
+    """Files in place of arrays, as the command line reads them, and packs in shards."""
+
+    OPTIONS = {"max_error": 2, "units": "metre", "tile_vertices": 60}
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.cells = self.path("cells")
+        os.mkdir(self.cells)
+        for name, west, east in (("w", 0, 41), ("e", 40, COLUMNS)):
+            head = f"ncols {east - west}\nnrows {ROWS}\nxllcenter {west}\nyllcenter 0\ncellsize 1"
+            numpy.savetxt(self.path(f"cells/{name}.asc"), hills()[:, west:east], fmt="%.1f", header=head, comments="")
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def bytes_of(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def test_files_and_folders_are_one_terrain(self):
+        two = [self.path("cells/w.asc"), pathlib.Path(self.cells) / "e.asc"]
+        for files in (self.cells, [self.cells], two):
+            array, _ = microtin.decode(microtin.encode(files, 0.5, units="metre")).raster()
+            self.assertLessEqual(numpy.abs(array - hills()).max(), 0.5 + ROUNDING)
+        report = microtin.encode_pack(self.cells, self.path("t.mtp"), **self.OPTIONS)
+        self.assertEqual(report.samples, ROWS * COLUMNS)
+        if "MICROTIN_TOOL" in os.environ:
+            command = f"encode {self.cells} --units metre --max-error 2 --tile-vertices 60 -o {self.path('tool.mtp')}"
+            subprocess.run([os.environ["MICROTIN_TOOL"], *shlex.split(command)], check=True, capture_output=True)
+            self.assertEqual(self.bytes_of("t.mtp"), self.bytes_of("tool.mtp"))
+
+    def test_points_in_files(self):
+        numpy.savetxt(self.path("points.xyz"), [[0, 0, 1], [9, 0, 2], [0, 9, 3], [9, 9, 4]], fmt="%d")
+        self.assertEqual(microtin.encode(self.path("points.xyz")).report.vertices, 4)
+
+    def test_shards_join_to_the_bytes_of_a_single_run(self):
+        microtin.encode_pack(self.cells, self.path("one.mtp"), **self.OPTIONS)
+        shards = pickle.loads(pickle.dumps(microtin.plan_shards([self.cells], 4, **self.OPTIONS)))
+        self.assertEqual(len(shards), 4)
+        parts = [self.path(f"{shard.first_tile}.shard") for shard in shards]
+        for shard, part in zip(shards, parts):
+            microtin.encode_shard([self.cells], shard, part, **self.OPTIONS)
+        report = microtin.merge_packs(parts[::-1], self.path("merged.mtp"))
+        self.assertEqual(self.bytes_of("merged.mtp"), self.bytes_of("one.mtp"))
+        self.assertEqual(report.bytes, len(self.bytes_of("one.mtp")))
+        with self.assertRaisesRegex(microtin.Error, "tile 0 is in no shard"):
+            microtin.merge_packs(parts[1:], self.path("merged.mtp"))
+
+    def test_what_files_do_not_take_is_refused(self):
+        with self.assertRaisesRegex(microtin.Error, "files state their own transform"):
+            microtin.encode(self.cells, transform=TRANSFORM)
+        with self.assertRaisesRegex(microtin.Error, "files state their own transform"):
+            microtin.encode(self.cells, crs='LOCAL_CS["somewhere"]')
+        with self.assertRaisesRegex(microtin.Error, "files take the path of a map"):
+            microtin.encode(self.cells, error_map=hills())
+        with self.assertRaisesRegex(microtin.Error, "nosuch.asc"):
+            microtin.encode([self.path("nosuch.asc")])
+        with self.assertRaisesRegex(microtin.Error, "files are a path, or a list of paths"):
+            microtin.plan_shards(hills(), 2)
+        with self.assertRaisesRegex(microtin.Error, "count: 0 is out of range"):
+            microtin.plan_shards(self.cells, 0)
 
 
 class Profiles(unittest.TestCase):

@@ -149,6 +149,10 @@ microtin_status microtin_source_from_points(const microtin_point_data* points,
                                             microtin_source** source);
 /* Reads a file. Its suffix selects the reader; see encoder.hpp. */
 microtin_status microtin_source_from_file(const char* path, microtin_source** source);
+/* Makes one terrain of `count` files and folders, which are read while the terrain is encoded: see
+ * SourceTerrain::from_files. The names are copied. */
+microtin_status microtin_source_from_files(const char* const* paths, uint64_t count,
+                                           microtin_source** source);
 /* Gives each post or point of a source a bound of its own: see SourceTerrain::set_error_map. The
  * raster of bounds is copied. Only one thread at a time may use the source meanwhile. */
 microtin_status microtin_source_set_error_map(microtin_source* source,
@@ -167,6 +171,31 @@ void microtin_bytes_free(uint8_t* bytes);
  * null. */
 microtin_status microtin_encode_pack(const microtin_source* source, const microtin_options* options,
                                      const char* path, microtin_report* report);
+
+/* A part of the tiles of a pack; see encoder::Shard. */
+typedef struct microtin_shard {
+  size_t size;
+  uint32_t tile_size; /* of the pack, in lattice steps between posts */
+  uint32_t first_tile, last_tile;
+  char z_step[24]; /* of the pack, a decimal as text */
+} microtin_shard;
+
+/* Divides the pack of a raster into at most `count` shards of equal work, and writes them to the
+ * first of `count` structs, of which the first has its size. Writes their number to `planned`. */
+microtin_status microtin_plan_shards(const microtin_source* source, const microtin_options* options,
+                                     uint32_t count, microtin_shard* shards, uint32_t* planned);
+
+/* Encodes the tiles of a shard, with the source and the options of microtin_plan_shards, and writes
+ * them to a file, which appears complete or not at all. `report` may be null; it has vertices and
+ * tiles alone. */
+microtin_status microtin_encode_shard(const microtin_source* source,
+                                      const microtin_options* options, const microtin_shard* shard,
+                                      const char* path, microtin_report* report);
+
+/* Joins `count` files of shards to the pack that microtin_encode_pack writes, or packs of one plan.
+ * The file appears complete or not at all. `report` may be null. */
+microtin_status microtin_merge_packs(const char* const* parts, uint64_t count, const char* path,
+                                     microtin_report* report);
 
 /* --- Reading --- */
 

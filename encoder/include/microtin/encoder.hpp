@@ -108,6 +108,14 @@ class SourceTerrain {
    * .las, .laz, .ply, .obj. Errors name the file and, for text, the line. */
   static SourceTerrain from_file(const std::string& path);
 
+  /* Makes one terrain of several files, and of folders: for a folder the files in it, by name, of
+   * the suffix that most of its terrain files have. If rasters overlap, the file named first counts
+   * at each position; points of all files count. The posts of all rasters lie on a common lattice.
+   * The files are read while the terrain is encoded, and again each time: for packs, .hgt and .asc
+   * tile by tile. So errors of their content come from that call. Throws std::runtime_error if
+   * there is no path, or if a folder holds no terrain file. */
+  static SourceTerrain from_files(const std::vector<std::string>& paths);
+
   /* Gives each post or point a bound of its own, from a raster of bounds in the unit of heights: of
    * the terrain's grid, or of a coarser one in the same system. A post takes the least bound of the
    * cells that it touches. 0 is exact. A void cell leaves posts without a bound. Posts that touch
@@ -276,6 +284,34 @@ Stream encode_stream(const SourceTerrain& terrain, const Options& options,
  * bytes each. */
 Report encode_pack(const SourceTerrain& terrain, const Options& options, const std::string& path,
                    const Callbacks& callbacks = {});
+
+/* --- Shards: the tiles of one pack from several processes or machines --- */
+
+/* A part of the tiles of a pack. */
+struct Shard {
+  uint32_t tile_size = 0; /* of the pack, in lattice steps between posts */
+  std::string z_step;     /* of the pack */
+  uint32_t first_tile = 0, last_tile = 0;
+};
+
+/* Divides the pack of a raster into at most `count` shards of equal work. All of them have the
+ * tile size and the step of heights that encode_pack chooses. Takes the time of encoding a few
+ * tiles, or none with both in `options`. Throws std::runtime_error if the terrain is points. */
+std::vector<Shard> plan_shards(const SourceTerrain& terrain, const Options& options, uint32_t count,
+                               const Callbacks& callbacks = {});
+
+/* Encodes the tiles of a shard, and writes them to a file, which appears complete or not at all.
+ * The terrain and the options are those of plan_shards; the shard replaces tile_size and z_step.
+ * Needs the memory of a few tiles, for any number of tiles, besides what the terrain keeps. The
+ * report has `vertices`, `tiles` and `warnings` alone. Throws std::runtime_error if a tile has too
+ * many vertices; the message has the tile size for all shards. */
+Report encode_shard(const SourceTerrain& terrain, const Options& options, const Shard& shard,
+                    const std::string& path, const Callbacks& callbacks = {});
+
+/* Joins the files of all shards, in any order, to the bytes that encode_pack writes; or joins packs
+ * of one plan. The file appears complete or not at all. The report has no samples. Throws
+ * std::runtime_error that names the file which does not fit, and if tiles are missing. */
+Report merge_packs(const std::vector<std::string>& parts, const std::string& path);
 
 }  // namespace microtin::encoder
 

@@ -25,7 +25,7 @@ import threading
 import warnings
 import weakref
 from dataclasses import dataclass
-from typing import Any, Callable, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -33,13 +33,14 @@ from numpy.typing import ArrayLike, NDArray
 from . import _library
 from ._library import Error, library
 
-__all__ = ["Error", "HeightBounds", "LineOfSight", "Profile", "Report", "Stream", "Surface", "Tile", "decode", "encode", "encode_pack", "encode_points"]
+__all__ = ["Error", "HeightBounds", "LineOfSight", "Profile", "Report", "Shard", "Stream", "Surface", "Tile", "decode", "encode", "encode_pack", "encode_points", "encode_shard", "merge_packs", "plan_shards"]
 __version__: str = library.microtin_version_string().decode()
 
 Number = Union[int, float, str, decimal.Decimal]
 Crs = Union[int, str, Any]
 Path = Union[str, "os.PathLike[str]"]
 ErrorMap = Union[str, "os.PathLike[str]", ArrayLike]
+Files = Union[Path, Sequence[Path]]
 
 _EFFORTS = {"fast": 1, "normal": 2, "best": 3}
 _CODINGS = {"quick": 1, "balanced": 2, "dense": 3}
@@ -79,6 +80,15 @@ class Stream(bytes):
     """An encoded terrain, the content of a .mtin file, with a `report`."""
 
     report: Report
+
+
+class Shard(NamedTuple):
+    """A part of the tiles of a pack, as `plan_shards` makes it. It can be pickled, for other processes and machines."""
+
+    tile_size: int  # of the pack, in lattice steps between posts
+    z_step: str  # of the pack
+    first_tile: int
+    last_tile: int
 
 
 class Tile(NamedTuple):
@@ -170,7 +180,7 @@ class LineOfSight(NamedTuple):
 
 
 def encode(
-    array: ArrayLike,
+    array: Union[ArrayLike, Files],
     max_error: Optional[Number] = None,
     *,
     transform: Optional[Sequence[float]] = None,
@@ -182,7 +192,9 @@ def encode(
 ) -> Stream:
     """Encodes a raster of heights as a stream.
 
-    array         heights in rows and columns, row 0 northernmost; NaN and masked ones are void
+    array         heights in rows and columns, row 0 northernmost; NaN and masked ones are void. Or the path of a file or of
+                  a folder, or a list of paths: they make one terrain, of points too. Then transform and nodata are the
+                  files', and crs is a code or None
     nodata        of more void ones, compared in the type of the heights
     max_error     no height of the surface is further from the array's; a float stands for its shortest decimal
     transform     the place of the cells, whose centres have the heights: six numbers in GDAL's order, or an Affine
@@ -209,7 +221,7 @@ def encode(
     Without a bound and a limit every height is a vertex. Takes some 20 us a height, on all processors. Raises Error, also if
     an array is not two-dimensional or a height out of range.
     """
-    with _source_from_array(array, transform, crs, nodata, options.get("error_map")) as terrain:
+    with _source_of(array, transform, crs, nodata, options.get("error_map")) as terrain:
         stream = _encode_stream(terrain, max_error, crs, max_vertices=max_vertices, max_bytes=max_bytes, **options)
     _warn(stream.report, crs, options)
     return stream
@@ -237,7 +249,7 @@ def encode_points(
 
 
 def encode_pack(
-    array: ArrayLike,
+    array: Union[ArrayLike, Files],
     path: Path,
     max_error: Optional[Number] = None,
     *,
@@ -249,15 +261,15 @@ def encode_pack(
     nodata: Optional[float] = None,
     **options: Any,
 ) -> Report:
-    """Encodes a raster, or with points=True points, as a pack of tiles and writes it to a .mtp file, which appears complete
+    """Encodes a raster, with points=True points, or files, as a pack of tiles and writes it to a .mtp file, which appears complete
     or not at all. No tile has more than `tile_vertices` (16 .. 2^24, default 2000) vertices; `tile_size` fixes the extent of
     a raster's tiles. All else is as for `encode`."""
     filled, caller = _options(max_error, crs, tile_vertices=tile_vertices, tile_size=tile_size, **options)
     report = _library.Report()
-    if points:
-        made = _source_from_points(array, crs, options.get("error_map"))
+    if points and _paths_of(array) is None:
+        made = _source_from_points(array, crs, options.get("error_map"))  # type: ignore[arg-type]
     else:
-        made = _source_from_array(array, transform, crs, nodata, options.get("error_map"))
+        made = _source_of(array, transform, crs, nodata, options.get("error_map"))
     with made as terrain, caller:
         library.microtin_encode_pack(terrain.pointer, filled, os.fsencode(path), report)
     told = _report(report)
@@ -265,12 +277,65 @@ def encode_pack(
     return told
 
 
+def plan_shards(
+    files: Files,
+    count: int,
+    max_error: Optional[Number] = None,
+    *,
+    tile_vertices: int = 0,
+    tile_size: int = 0,
+    crs: Optional[Crs] = None,
+    **options: Any,
+) -> List[Shard]:
+    """Divides the pack of rasters in files and folders into at most `count` shards of equal work. Takes the time of encoding
+    a few tiles. Options are those of `encode_pack`."""
+    filled, caller = _options(max_error, crs, tile_vertices=tile_vertices, tile_size=tile_size, **options)
+    if not 0 < count < 1 << 20:
+        raise Error(f"count: {count} is out of range")
+    found = (_library.Shard * count)()
+    found[0].size = ctypes.sizeof(_library.Shard)
+    planned = ctypes.c_uint32()
+    with _source_from_files(files) as terrain, caller:
+        library.microtin_plan_shards(terrain.pointer, filled, count, found, planned)
+    return [
+        Shard(one.tile_size, one.z_step.decode(), one.first_tile, one.last_tile) for one in found[: planned.value]
+    ]
+
+
+def encode_shard(
+    files: Files,
+    shard: Shard,
+    path: Path,
+    max_error: Optional[Number] = None,
+    *,
+    tile_vertices: int = 0,
+    crs: Optional[Crs] = None,
+    **options: Any,
+) -> None:
+    """Encodes the tiles of a shard, and writes them to a file, which appears complete or not at all. Files and options are
+    those of `plan_shards`. Needs the memory of a few tiles, besides what is kept of the files."""
+    filled, caller = _options(max_error, crs, tile_vertices=tile_vertices, **options)
+    size, z_step, first, last = shard
+    part = _library.Shard(tile_size=size, z_step=z_step.encode(), first_tile=first, last_tile=last)
+    with _source_from_files(files) as terrain, caller:
+        library.microtin_encode_shard(terrain.pointer, filled, part, os.fsencode(path), None)
+
+
+def merge_packs(parts: Sequence[Path], path: Path) -> Report:
+    """Joins the files of all shards, in any order, to the bytes that `encode_pack` writes; or joins packs of one plan. The
+    report has no samples."""
+    names = [os.fsencode(part) for part in parts]
+    report = _library.Report()
+    library.microtin_merge_packs((ctypes.c_char_p * len(names))(*names), len(names), os.fsencode(path), report)
+    return _report(report)
+
+
 class _Source:
     """A terrain to be encoded, until the end of a with statement."""
 
-    def __init__(self, make: Callable[..., None], content: Any) -> None:
+    def __init__(self, make: Callable[..., None], *content: Any) -> None:
         self.pointer = ctypes.c_void_p()
-        make(content, self.pointer)
+        make(*content, self.pointer)
 
     def __enter__(self) -> "_Source":
         return self
@@ -513,6 +578,38 @@ def _raster_of(
         raster.heights = heights.ctypes.data_as(_library.Doubles)
     raster.kept = heights  # as long as the pointer to it
     return raster
+
+
+def _paths_of(array: Any) -> Optional[List[Path]]:
+    """The paths that stand in place of an array; None for an array."""
+    if isinstance(array, (str, os.PathLike)):
+        return [array]
+    is_list = isinstance(array, (list, tuple)) and len(array) > 0
+    return list(array) if is_list and all(isinstance(one, (str, os.PathLike)) for one in array) else None
+
+
+def _source_from_files(files: Files) -> _Source:
+    paths = _paths_of(files)
+    if paths is None:
+        raise Error("files are a path, or a list of paths")
+    names = [os.fsencode(path) for path in paths]
+    return _Source(library.microtin_source_from_files, (ctypes.c_char_p * len(names))(*names), len(names))
+
+
+def _source_of(
+    array: Union[ArrayLike, Files],
+    transform: Optional[Sequence[float]],
+    crs: Optional[Crs],
+    nodata: Optional[float],
+    error_map: Optional[ErrorMap],
+) -> _Source:
+    if _paths_of(array) is None:
+        return _source_from_array(array, transform, crs, nodata, error_map)  # type: ignore[arg-type]
+    if transform is not None or nodata is not None or (crs is not None and _epsg_of(crs) is None):
+        raise Error("files state their own transform, nodata and well-known text; leave these out")
+    if error_map is not None and not isinstance(error_map, (str, bytes, os.PathLike)):
+        raise Error("error_map: files take the path of a map, not an array")
+    return _source_from_files(array)  # type: ignore[arg-type]
 
 
 def _source_from_array(

@@ -115,6 +115,16 @@ class Report(_Sized):
     ]
 
 
+class Shard(_Sized):
+    _fields_ = [
+        ("size", c_size_t),
+        ("tile_size", c_uint32),
+        ("first_tile", c_uint32),
+        ("last_tile", c_uint32),
+        ("z_step", c_char * 24),
+    ]
+
+
 class Grid(_Sized):
     _fields_ = [("size", c_size_t), ("columns", c_uint32), ("rows", c_uint32), ("x", Axis), ("y", Axis)]
 
@@ -249,8 +259,12 @@ _FUNCTIONS = {
     "source_from_points": [POINTER(Points), POINTER(c_void_p)],
     "source_set_error_map": [c_void_p, POINTER(Raster)],
     "source_from_file": [c_char_p, POINTER(c_void_p)],
+    "source_from_files": [POINTER(c_char_p), c_uint64, POINTER(c_void_p)],
     "encode_stream": [c_void_p, POINTER(Options), POINTER(POINTER(c_uint8)), POINTER(c_uint64), POINTER(Report)],
     "encode_pack": [c_void_p, POINTER(Options), c_char_p, POINTER(Report)],
+    "plan_shards": [c_void_p, POINTER(Options), c_uint32, POINTER(Shard), POINTER(c_uint32)],
+    "encode_shard": [c_void_p, POINTER(Options), POINTER(Shard), c_char_p, POINTER(Report)],
+    "merge_packs": [POINTER(c_char_p), c_uint64, c_char_p, POINTER(Report)],
     "surface_from_file": [c_char_p, POINTER(c_void_p)],
     "surface_from_bytes": [c_char_p, c_uint64, c_char_p, POINTER(c_void_p)],
     "surface_get_info": [c_void_p, POINTER(SurfaceInfo)],
