@@ -24,8 +24,6 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-constexpr const char* kC = "encoder/include/microtin/encoder.h";
-
 // Cells whose posts overlap by one column, a coarse cell beside them, and points of two files.
 class Files {
  public:
@@ -238,7 +236,8 @@ TEST_CASE("files: shards by C++ and C are those of the command line, and join to
   uint32_t planned = 0;
   REQUIRE(microtin_plan_shards(in_c.source, &given, 3, all, &planned) == MICROTIN_STATUS_OK);
   REQUIRE(planned == 3);
-  CHECK(text_of(members_of(kC, "microtin_shard")) == "first_tile last_tile size tile_size z_step ");
+  CHECK(text_of(members_of("encoder/include/microtin/encoder.h", "microtin_shard")) ==
+        "first_tile last_tile size tile_size z_step ");
 
   std::string lines;
   std::vector<std::string> parts;
