@@ -778,7 +778,7 @@ class Surface:
     def _at(self, write: Callable[..., None], xs: ArrayLike, ys: ArrayLike, numbers: int) -> Sequence[Any]:
         x, y = numpy.broadcast_arrays(*(numpy.asarray(places, numpy.float64) for places in (xs, ys)))
         x, y = numpy.ascontiguousarray(x), numpy.ascontiguousarray(y)
-        found = [numpy.empty(x.shape) for _ in range(numbers)]
+        found: List[Any] = [numpy.empty(x.shape) for _ in range(numbers)]
         pointers = (places.ctypes.data_as(_library.Doubles) for places in (x, y, *found))
         with self._lock:
             write(self._surface, x.size, *pointers)
