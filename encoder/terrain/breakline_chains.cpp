@@ -137,7 +137,7 @@ void add_simplified(const LatticeLine& line, LineRoom room, LineVertex next,
     size = all.size();
     all = fewer(line, room, all);
   }
-  chain.insert(chain.end(), all.begin() + 1, all.end());
+  for (std::size_t i = 1; i < all.size(); ++i) chain.push_back(all[i]);
 }
 
 std::vector<double> without_repeats(std::vector<double> numbers) {
