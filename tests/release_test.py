@@ -157,9 +157,13 @@ class Refusals(unittest.TestCase):
         self.refused(lambda folder: replace(folder / "README.md", "## Limits\n", "## Limits\n\nIt is not frozen yet.\n"),
                      r"README.md:\d+: states that the format is not frozen; freeze")  # fmt: skip
 
-    def test_an_address_that_is_a_placeholder(self):
+    def test_an_address_that_is_not_the_projects(self):
         self.refused(lambda folder: replace(folder / "CMakeLists.txt", "microtin.test", "microtin.example"),
                      "HOMEPAGE_URL is a placeholder, .*; write")  # fmt: skip
+        for url in ("https://microtin.test", "https://microtin.test/", "https://microtin.test/microtin/"):
+            with self.subTest(url):
+                self.refused(lambda folder: replace(folder / "CMakeLists.txt", "https://microtin.test/microtin", url),
+                             f"HOMEPAGE_URL, {url}, is not a repository's; write https://HOST/PATH")  # fmt: skip
         self.refused(lambda folder: replace(folder / CONTROL, "microtin@microtin.test", "microtin@example.org"),
                      f"{CONTROL}: the address of the Maintainer is a placeholder; write")  # fmt: skip
 

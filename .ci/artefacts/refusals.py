@@ -102,6 +102,8 @@ def project_url(root=Path(".")):
 def address(version):
     if ".example" in project_url():
         yield f"CMakeLists.txt: HOMEPAGE_URL is a placeholder, {project_url()}; write the project's address"
+    if not re.match(r"https://[^/]+/[^?#]*[^/?#]$", project_url()):
+        yield f"CMakeLists.txt: HOMEPAGE_URL, {project_url()}, is not a repository's; write https://HOST/PATH"
     if "@example." in Path(CONTROL).read_text():
         yield f"{CONTROL}: the address of the Maintainer is a placeholder; write one that people can reach"
 
