@@ -7,7 +7,9 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <list>
 #include <memory>
+#include <mutex>
 #include <system_error>
 #include <utility>
 
@@ -40,30 +42,105 @@ std::string read_file(const std::string& path) {
 
 namespace {
 
+[[noreturn]] void fail(const std::string& path) {
+  throw Error(path + ": cannot be read: " + std::generic_category().message(errno));
+}
+
+// A file that is open for reading.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path) : file_(open_to_read(path)) {
+    if (file_ < 0) fail(path);
+    if (examine(file_, state_)) return;
+    const int reason = errno;
+    close_file(file_);
+    errno = reason;
+    fail(path);
+  }
+  ~OpenFile() { close_file(file_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  int descriptor() const { return file_; }
+  const FileState& state() const { return state_; }
+
+ private:
+  int file_;
+  FileState state_;
+};
+
+using SharedFile = std::shared_ptr<const OpenFile>;
+
+// Files that are read in pieces. A terrain of many cells may consist of more files than a process
+// may have open, so at most kMostOpen are: the one that was not read for longest is closed, and
+// opened again when it is read.
+class FilePool {
+ public:
+  // A file of the pool. Its members change under the pool's lock alone.
+  struct Member {
+    SharedFile file;  // null: closed
+    std::list<Member*>::iterator place;
+  };
+
+  static FilePool& instance() {
+    static FilePool& pool = *new FilePool;  // outlives every file
+    return pool;
+  }
+
+  // Returns the open file of a member, which `open` opens if it is closed.
+  template <class Open>
+  SharedFile take(Member& member, const Open& open) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (member.file) {
+      open_.splice(open_.begin(), open_, member.place);
+      return member.file;
+    }
+    if (open_.size() == kMostOpen) {
+      open_.back()->file.reset();  // who reads it now keeps it open
+      open_.pop_back();
+    }
+    SharedFile file = open();
+    open_.push_front(&member);
+    member.place = open_.begin();
+    member.file = file;
+    return file;
+  }
+
+  void remove(Member& member) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (member.file) open_.erase(member.place);
+  }
+
+ private:
+  static constexpr size_t kMostOpen = 128;  // systems allow a process 256 or more
+
+  std::mutex mutex_;
+  std::list<Member*> open_;  // the one that was read last comes first
+};
+
 class FileBytes : public ByteSource {
  public:
-  explicit FileBytes(const std::string& path) : path_(path), file_(open_to_read(path)) {
-    if (file_ < 0) fail();
-    FileState state;
-    const bool is_known = examine(file_, state);
-    size_ = state.size;
-    if (is_known && state.is_regular) return;
-    close_file(file_);
-    if (!is_known) fail();
+  explicit FileBytes(const std::string& path) : path_(path) {
+    const SharedFile file =
+        FilePool::instance().take(member_, [&] { return std::make_shared<const OpenFile>(path); });
+    state_ = file->state();
+    if (state_.is_regular) return;
+    FilePool::instance().remove(member_);
     throw Error(path + ": cannot be read in pieces; copy it into a regular file");
   }
-  ~FileBytes() override { close_file(file_); }
+  ~FileBytes() override { FilePool::instance().remove(member_); }
   FileBytes(const FileBytes&) = delete;
   FileBytes& operator=(const FileBytes&) = delete;
 
-  uint64_t size() const override { return size_; }
+  uint64_t size() const override { return state_.size; }
 
   std::size_t read(uint64_t offset, void* to, std::size_t size) const override {
+    const SharedFile file = FilePool::instance().take(member_, [this] { return open_again(); });
     std::size_t done = 0;
     while (done < size) {
       const int64_t taken =
-          read_at(file_, offset + done, static_cast<char*>(to) + done, size - done);
-      if (taken < 0) fail();
+          read_at(file->descriptor(), offset + done, static_cast<char*>(to) + done, size - done);
+      if (taken < 0) fail(path_);
       if (taken == 0) break;
       done += static_cast<std::size_t>(taken);
     }
@@ -71,13 +148,18 @@ class FileBytes : public ByteSource {
   }
 
  private:
-  [[noreturn]] void fail() const {
-    throw Error(path_ + ": cannot be read: " + std::generic_category().message(errno));
+  SharedFile open_again() const {
+    auto file = std::make_shared<const OpenFile>(path_);
+    const FileState& now = file->state();
+    if (now.size != state_.size || now.volume != state_.volume || now.number != state_.number) {
+      throw Error(path_ + ": became another file while it was read");
+    }
+    return file;
   }
 
   std::string path_;
-  int file_;
-  uint64_t size_ = 0;
+  FileState state_;
+  mutable FilePool::Member member_;
 };
 
 class MemoryBytes : public ByteSource {

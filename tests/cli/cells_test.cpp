@@ -79,6 +79,20 @@ TEST_CASE("cells: what is absent is not an ocean unless somebody says so" * kSlo
   CHECK(session.run("encode data --absent sea -o u.mtp").code == 2);
 }
 
+TEST_CASE("cells: a terrain has more files than a process may have open") {
+  const Session session;
+  std::filesystem::create_directory(session.folder() + "/data");
+  for (int i = 0; i < 180; ++i) {
+    session.write("data/N0" + std::to_string(i / 90) + "E0" + std::to_string(10 + i % 90) + ".hgt",
+                  cell(static_cast<char>(i % 90)));
+  }
+  REQUIRE(session.run("encode data --max-error 9 --fast -o a.mtp").code == 0);
+  const Session::Result few =
+      session.shell("ulimit -n 160 && microtin encode data --max-error 9 --fast -o b.mtp");
+  CHECK_MESSAGE(few.code == 0, few.err);
+  CHECK(session.read("a.mtp") == session.read("b.mtp"));
+}
+
 TEST_CASE("resume: a run goes on where another one stopped, and makes the same pack" * kSlow) {
   const Session session;
   REQUIRE(session.run("fractal --size 257 --seed 3 -o t.asc").code == 0);
