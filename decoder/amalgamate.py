@@ -38,6 +38,7 @@ HEADER = """#ifndef MICROTIN_H
 
 #include "microtin/compact.h"
 #include "microtin/compact_pack.h"
+#include "microtin/edge_marks.h"
 #include "microtin/requests.h"
 #include "microtin/segment.h"
 #include "microtin/microtin.h"

@@ -88,6 +88,7 @@ namespace picture {
 using namespace base;
 using namespace exact;
 using namespace terrain;
+using namespace stream;
 using namespace verifying;
 using namespace exporting;
 }  // namespace picture

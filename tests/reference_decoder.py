@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 """A slow second decoder, written from format-stream.md and format-pack.md alone, for people who learn the formats.
 
-Usage: reference_decoder.py FILE
+Usage: reference_decoder.py [--lines] FILE
 
 Prints the digest of a stream's mesh, then x, y and z of each vertex in decoded order; for a pack, the digest and vertices of
-each tile. Refuses what breaks a rule: prints one line, which begins with the status, and exits with 1. Functions have the
+each tile. With --lines prints class and vertices of each line of a stream instead. Refuses what breaks a rule: prints one line, which begins with the status, and exits with 1. Functions have the
 names that the page uses. Comments name its sections.
 """
 
@@ -75,17 +75,19 @@ class Bytes:
             raise Refusal("damaged", "the check of " + what + " fails")
 
 
-def skip_chunks(data):
-    """Section 4, Chunks: what follows the last section must be chunks, or the file is damaged."""
-    reader = Bytes(data, 0, "damaged")
+def read_chunks(data):
+    """Section 4, Chunks: what follows the last section must be chunks, or the file is damaged. The first of each type."""
+    reader, chunks = Bytes(data, 0, "damaged"), {}
     while not reader.at_end():
         begin = reader.position
         try:
-            reader.varint(1 << 31)
-            reader.take(reader.varint(1 << 31))
+            kind = reader.varint(1 << 31)
+            content = reader.take(reader.varint(1 << 31))
         except Refusal as refusal:
             raise Refusal("damaged", "no chunk follows the last section") from refusal
         reader.check(begin, "a chunk")
+        chunks.setdefault(kind, content)
+    return chunks
 
 
 class Header:
@@ -554,7 +556,7 @@ class Decoder:
         if self.header.voids:
             self.decode_void_flags()
         self.end_section()
-        skip_chunks(self.reader.data[self.reader.position:])
+        self.chunks = read_chunks(self.reader.data[self.reader.position:])
         return self
 
     # Symbols outside the walk (section 5)
@@ -837,13 +839,17 @@ def print_terrain(decoder):
 
 
 def main():
-    if len(sys.argv) != 2:
-        print("usage: reference_decoder.py FILE", file=sys.stderr)
+    lines = sys.argv[1:2] == ["--lines"]
+    if len(sys.argv) != (3 if lines else 2):
+        print("usage: reference_decoder.py [--lines] FILE", file=sys.stderr)
         return 2
-    with open(sys.argv[1], "rb") as file:
+    with open(sys.argv[-1], "rb") as file:
         data = file.read()
     try:
-        if data[:4] == b"mtpk":
+        if lines:
+            from reference_lines import print_lines
+            print_lines(Decoder(data).decode())
+        elif data[:4] == b"mtpk":
             from reference_pack import print_pack
             print_pack(data)
         else:

@@ -185,7 +185,7 @@ class AdaptiveBit:
 
 def start_table():
     """Section 14."""
-    table = PAGE.read_text(encoding="utf-8").split("## 14. Start table")[1]
+    table = PAGE.read_text(encoding="utf-8").split("## 14. Start table")[1].split("\n## ")[0]
     return [int(word) for line in re.findall(r"^    (.*)$", table, re.M) for word in line.split()]
 
 

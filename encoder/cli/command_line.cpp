@@ -69,12 +69,13 @@ void add_look(CLI::App& app, Action& action, const std::string& name,
 void add_decode(CLI::App& app, Action& action) {
   auto request = std::make_shared<DecodeRequest>();
   CLI::App& command =
-      *app.add_subcommand("decode", "Turn a stream or a pack into a mesh or a grid");
+      *app.add_subcommand("decode", "Turn a stream or a pack into a mesh, a grid or lines");
   command.group(kConvert);
   add_stream(command, request->input);
-  add_output(command, request->output,
-             "Write this file. Meshes: .xyz, .obj, .ply, .glb. A grid: .asc. A cell for ArduPilot, "
-             "INAV: N43E007.DAT, N43E007.TER. - is .xyz on standard output");
+  add_output(
+      command, request->output,
+      "Write this file. Meshes: .xyz, .obj, .ply, .glb. A grid: .asc. Marked lines: .geojson. "
+      "A cell for autopilots: N43E007.DAT, N43E007.TER. - is .xyz on standard output");
   begin_group(command, "Posts of a grid");
   CLI::Option* const cell =
       add_decimal(command, "--cell DISTANCE", request->cell,

@@ -9,8 +9,10 @@
 #include "encoder/cli/decode_grid.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/export/autopilot.hpp"
+#include "encoder/export/lines.hpp"
 #include "encoder/export/mesh.hpp"
 #include "encoder/files/output.hpp"
+#include "encoder/import/geojson.hpp"
 #include "encoder/product/document.hpp"
 
 namespace microtin::cli {
@@ -109,6 +111,22 @@ void decode_to_mesh(const DecodeRequest& request) {
   std::fputs(of_units.c_str(), stderr);
 }
 
+void decode_to_lines(const DecodeRequest& request) {
+  const Document document(request.input);
+  if (document.stream() == nullptr) {
+    throw Error(request.input + ": is a pack, which has no lines; write a mesh or a grid");
+  }
+  const DecodedTerrain& terrain = document.stream()->terrain;
+  const std::vector<MarkedLine> lines = terrain.lines();
+  if (lines.empty()) {
+    throw Error(request.input + ": has no lines; encode it with --breaklines, or write a mesh");
+  }
+  const Placement placement = request.lattice ? Placement() : document.metadata().placement;
+  OutputFile out(request.output);
+  export_lines(terrain.mesh(), lines, placement, out);
+  out.commit();
+}
+
 }  // namespace
 
 void run_decode(const DecodeRequest& request) {
@@ -128,6 +146,10 @@ void run_decode(const DecodeRequest& request) {
     return;
   }
   if (request.cell) throw Error(request.output + ": only grids (.asc, .DAT, .TER) have cells");
+  if (is_geojson(request.output)) {
+    decode_to_lines(request);
+    return;
+  }
   decode_to_mesh(request);
 }
 

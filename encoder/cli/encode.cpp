@@ -349,7 +349,9 @@ void run_encode(EncodeRequest request) {
   announce_left_out(request);
   announce_memory(request);
   if (!request.breaklines.empty()) {
-    request.lattice.breaklines = read_breaklines(request.breaklines);
+    BreaklineFile read = read_breaklines(request.breaklines);
+    request.lattice.breaklines = std::move(read.lines);
+    request.lattice.line_classes = std::move(read.classes);
   }
   deliver(out, request.output,
           makes_pack(request) ? encode_tiled(request, out) : encode_whole(request, out));

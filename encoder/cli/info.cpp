@@ -200,6 +200,22 @@ uint64_t compact_bytes(DecodedTerrain& terrain) {
   return bytes_of(form, index_bits(form.vertices));
 }
 
+// The lines that marked edges make.
+void add_lines(JsonObject& report, const DecodedTerrain& terrain) {
+  if (terrain.marked_edges() == 0) return;
+  const std::vector<MarkedLine> lines = terrain.lines();
+  const stream::LineCounts counts = stream::count_by_class(lines);
+  JsonObject classes;
+  for (std::size_t number = 1; number < counts.size(); ++number) {
+    if (counts[number] == 0) continue;
+    classes.emplace_back(name_of(static_cast<LineClass>(number)), json(counts[number]));
+  }
+  report.emplace_back("lines", json(JsonObject{{"lines", json(lines.size())},
+                                               {"edges", json(terrain.marked_edges())},
+                                               {"bytes", json(terrain.mark_bytes())},
+                                               {"classes", json(classes)}}));
+}
+
 JsonObject report_of(DecodedStream& stream) {
   const Header header = read_header(stream.bytes);
   DecodedTerrain& terrain = stream.terrain;
@@ -224,6 +240,7 @@ JsonObject report_of(DecodedStream& stream) {
   add_extent(report, box_of(terrain.mesh()), header.metadata.placement);
   add_placement(report, header.metadata);
   add_notes(report, header.metadata);
+  add_lines(report, terrain);
   if (header.metadata.digest)
     report.emplace_back("digest", json(hexadecimal(*header.metadata.digest)));
   add_accuracy(report, header.metadata.accuracy);

@@ -77,6 +77,7 @@ Portrait portrait_of(const RenderRequest& request, const Document& document) {
   uint64_t vertices = document.vertices(), bytes = document.bytes();
   Metadata metadata = document.metadata();
   SurfaceModel model;
+  std::vector<MarkedLine> lines;
   if (request.first_bytes != 0) {
     bytes = std::min<uint64_t>(request.first_bytes, bytes);
     model = document.model_after(bytes);
@@ -84,6 +85,7 @@ Portrait portrait_of(const RenderRequest& request, const Document& document) {
     if (bytes < document.bytes()) metadata.accuracy.reset();  // that of the whole terrain
   } else {
     model = document.model(most);
+    if (document.stream() != nullptr) lines = document.stream()->terrain.lines();
   }
   return {std::move(model),
           std::move(metadata),
@@ -96,7 +98,8 @@ Portrait portrait_of(const RenderRequest& request, const Document& document) {
           request.interval,
           request.title,
           request.coordinates,
-          request.north_arrow};
+          request.north_arrow,
+          std::move(lines)};
 }
 
 // The bytes of what was read: of a stream those that it was decoded from, as it may come by a pipe.

@@ -153,7 +153,7 @@ void run_verify(const VerifyRequest& request) {
   }
   std::optional<FoundBreaklines> lines;
   if (!request.breaklines.empty()) {
-    lines = original.breaklines(read_breaklines(request.breaklines));
+    lines = original.breaklines(read_breaklines(request.breaklines).lines);
     report.emplace_back("breaklines", text_of(*lines, document.metadata().placement));
   }
   add_warnings(report, original);

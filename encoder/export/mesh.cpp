@@ -59,8 +59,8 @@ MeshFormat mesh_format_of(const std::string& path) {
   if (suffix == ".ply") return MeshFormat::kPly;
   if (suffix == ".glb") return MeshFormat::kGlb;
   throw Error(path +
-              ": not a kind of file that is written (.xyz, .obj, .ply, .glb, .asc, .dat, .ter); "
-              "gdal_translate and ogr2ogr with the driver MTIN write others");
+              ": not a kind of file that is written (.xyz, .obj, .ply, .glb, .asc, .geojson, .dat, "
+              ".ter); gdal_translate and ogr2ogr with the driver MTIN write others");
 }
 
 uint64_t most_mesh_bytes(const SampledSurface& surface, uint64_t vertices, MeshFormat format,

@@ -24,11 +24,30 @@ namespace {
 
 constexpr std::size_t kNoColumn = SIZE_MAX;
 
-bool names_lines(std::string_view field) {
+std::string lower_case(std::string_view field) {
   std::string name(field);
   std::transform(name.begin(), name.end(), name.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return name;
+}
+
+bool names_lines(std::string_view field) {
+  const std::string name = lower_case(field);
   return name == "line" || name == "line_id" || name == "id" || name == "fid";
+}
+
+bool names_classes(std::string_view field) {
+  return lower_case(field) == "class";
+}
+
+// A class, which an empty text does not state.
+LineClass class_at(const std::string& file, std::size_t line, std::string_view name) {
+  if (name.empty()) return LineClass::kOther;
+  const std::optional<LineClass> kind = line_class_named(lower_case(name));
+  if (kind) return *kind;
+  fail_at(
+      file, line,
+      "'" + std::string(name) + "' is not a class of lines; use one of " + names_of_line_classes());
 }
 
 // Reads text with a position on each line.
@@ -36,7 +55,7 @@ class TextLineReader {
  public:
   explicit TextLineReader(const std::string& name) : name_(name) {}
 
-  std::vector<RealLine> read(std::string_view text) {
+  BreaklineFile read(std::string_view text) {
     std::string_view rest = without_mark(text);
     while (!rest.empty()) read_text_line(take_line(rest));
     end();
@@ -74,12 +93,14 @@ class TextLineReader {
 
   void read_names() {
     column_.fill(kNoColumn);
-    line_column_ = kNoColumn;
+    line_column_ = class_column_ = kNoColumn;
     for (std::size_t i = 0; i < fields_.size(); ++i) {
       if (const std::optional<PointColumn> column = column_named(fields_[i])) {
         if (column_[column->axis] == kNoColumn) column_[column->axis] = i;
       } else if (line_column_ == kNoColumn && names_lines(fields_[i])) {
         line_column_ = i;
+      } else if (class_column_ == kNoColumn && names_classes(fields_[i])) {
+        class_column_ = i;
       }
     }
     if (column_[0] == kNoColumn || column_[1] == kNoColumn) {
@@ -99,6 +120,7 @@ class TextLineReader {
       end();
       line_name_ = fields_[line_column_];
     }
+    read_class();
     RealPoint point{number_at(column_[0]), number_at(column_[1])};
     const bool has_height = column_[2] < fields_.size() && !fields_[column_[2]].empty();
     if (has_height) point.z = number_at(column_[2]);
@@ -108,9 +130,20 @@ class TextLineReader {
     line_.push_back(point);
   }
 
+  void read_class() {
+    if (class_column_ >= fields_.size()) return;
+    const LineClass kind = class_at(name_, number_, fields_[class_column_]);
+    if (kind == class_) return;
+    end();
+    class_ = kind;
+  }
+
   void end() {
     if (line_.size() == 1) fail("a line before this place has a single position; it needs two");
-    if (!line_.empty()) lines_.push_back(std::move(line_));
+    if (!line_.empty()) {
+      lines_.lines.push_back(std::move(line_));
+      lines_.classes.push_back(class_);
+    }
     line_.clear();
   }
 
@@ -119,21 +152,24 @@ class TextLineReader {
   std::vector<std::string_view> fields_;
   bool is_begun_ = false;
   std::array<std::size_t, 3> column_ = {0, 1, 2};
-  std::size_t line_column_ = 3;
+  std::size_t line_column_ = 3, class_column_ = kNoColumn;
   std::string line_name_;
   RealLine line_;
-  std::vector<RealLine> lines_;
+  LineClass class_ = LineClass::kOther;
+  BreaklineFile lines_;
 };
 
-std::vector<RealLine> lines_of_features(const std::string& path, const std::string& text) {
-  std::vector<RealLine> lines;
+BreaklineFile lines_of_features(const std::string& path, const std::string& text) {
+  BreaklineFile all;
   for (Feature& feature : import_geojson(path, text)) {
-    std::move(feature.lines.begin(), feature.lines.end(), std::back_inserter(lines));
+    const LineClass kind = class_at(path, feature.line_of_class, feature.line_class);
+    std::move(feature.lines.begin(), feature.lines.end(), std::back_inserter(all.lines));
     for (RealRings& polygon : feature.polygons) {
-      std::move(polygon.begin(), polygon.end(), std::back_inserter(lines));
+      std::move(polygon.begin(), polygon.end(), std::back_inserter(all.lines));
     }
+    all.classes.resize(all.lines.size(), kind);
   }
-  return lines;
+  return all;
 }
 
 // Where all positions of a line are one, there is no line.
@@ -143,13 +179,23 @@ bool is_single_place(const RealLine& line) {
   });
 }
 
+BreaklineFile without_single_places(BreaklineFile&& all) {
+  BreaklineFile some;
+  for (std::size_t i = 0; i < all.lines.size(); ++i) {
+    if (is_single_place(all.lines[i])) continue;
+    some.lines.push_back(std::move(all.lines[i]));
+    some.classes.push_back(all.classes[i]);
+  }
+  return some;
+}
+
 }  // namespace
 
-std::vector<RealLine> read_breaklines(const std::string& path) {
+BreaklineFile read_breaklines(const std::string& path) {
   const std::string text = read_file(path);
-  std::vector<RealLine> lines =
-      is_geojson(path) ? lines_of_features(path, text) : TextLineReader(path).read(text);
-  lines.erase(std::remove_if(lines.begin(), lines.end(), is_single_place), lines.end());
+  BreaklineFile all = without_single_places(is_geojson(path) ? lines_of_features(path, text)
+                                                             : TextLineReader(path).read(text));
+  const std::vector<RealLine>& lines = all.lines;
   if (lines.empty()) throw Error(path + ": has no line");
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const bool has_heights = lines[i].front().z.has_value();
@@ -160,7 +206,7 @@ std::vector<RealLine> read_breaklines(const std::string& path) {
     throw Error(path + ": line " + std::to_string(i + 1) +
                 " has positions with and without a height; give all of them one, or none");
   }
-  return lines;
+  return all;
 }
 
 }  // namespace microtin::importing

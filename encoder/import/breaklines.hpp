@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Breaklines out of GeoJSON files and of text with a position on each line.
+// BreaklineFile out of GeoJSON files and of text with a position on each line.
 #ifndef MICROTIN_ENCODER_IMPORT_BREAKLINES_HPP
 #define MICROTIN_ENCODER_IMPORT_BREAKLINES_HPP
 
@@ -7,15 +7,22 @@
 #include <vector>
 
 #include "encoder/layers.hpp"
+#include "encoder/terrain/line_class.hpp"
 #include "encoder/terrain/polygons.hpp"
 
 namespace microtin::importing {
 
+struct BreaklineFile {
+  std::vector<RealLine> lines;
+  std::vector<LineClass> classes;  // of each line
+};
+
 // Lines and the rings of polygons of a file, in the terrain's own system; heights are in its unit.
-// GeoJSON has .geojson or .json. A text has columns x, y, maybe z, and maybe a name of the line; a
-// header may name them. An empty line ends a line, and so does another name. Throws Error with the
-// place of a fault: no line, a line of one position, positions with and without a height in a line.
-std::vector<RealLine> read_breaklines(const std::string& path);
+// GeoJSON has .geojson or .json, and maybe a property class. A text has columns x, y, maybe z, and
+// maybe a name of the line; a header may name them, and a column class. An empty line ends a line,
+// and so does another name or class. Throws Error with the place of a fault: no line, a line of one
+// position, positions with and without a height in a line, a class that there is not.
+BreaklineFile read_breaklines(const std::string& path);
 
 }  // namespace microtin::importing
 

@@ -198,6 +198,7 @@ class FeatureReader {
     features_.back().top = number_of(properties, "top", true);
     features_.back().height = number_of(properties, "height", false);
     features_.back().radius = number_of(properties, "radius", false);
+    read_class(properties.find("class"));
     const Value* const bound = properties.find("max_error");
     if (bound == nullptr) return;
     Feature& feature = features_.back();
@@ -207,6 +208,12 @@ class FeatureReader {
     if (!feature.max_error || feature.max_error->mantissa < 0) {
       fail(*bound, "max_error is not a number from 0 up, nor null");
     }
+  }
+
+  void read_class(const Value* value) {
+    if (value == nullptr || value->kind != Value::kText) return;
+    features_.back().line_class = std::string(value->text);
+    features_.back().line_of_class = value->line;
   }
 
   void read_geometry(const Value& value) {

@@ -3,6 +3,7 @@
 #ifndef MICROTIN_ENCODER_IMPORT_GEOJSON_HPP
 #define MICROTIN_ENCODER_IMPORT_GEOJSON_HPP
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,6 +25,9 @@ struct Feature {
   // Properties of obstacles: a height above the zero of heights, or from 0 up above the ground; and
   // metres from 0 up around the geometry.
   std::optional<Decimal> top, height, radius;
+  // The property class of lines: a text, and the line of the file where it stands.
+  std::string line_class;
+  std::size_t line_of_class = 0;
 };
 
 // Reads the features of a GeoJSON text: collections, features and geometries. Coordinates are

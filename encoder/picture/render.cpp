@@ -12,6 +12,7 @@
 #include "encoder/picture/error_map.hpp"
 #include "encoder/picture/frame.hpp"
 #include "encoder/picture/lettering.hpp"
+#include "encoder/picture/lines.hpp"
 #include "encoder/picture/relief.hpp"
 
 namespace microtin::picture {
@@ -245,6 +246,7 @@ struct Sheet {
 
   void end(Drawing& drawing) const {
     const MapFrame& frame = layout.relief;
+    draw_marked_lines(drawing, frame, portrait.model, portrait.lines, layout.unit);
     if (interval) {
       label_contours(drawing, frame, contours, lines, *interval, layout.unit,
                      portrait.north_arrow ? north_arrow_of(frame.box, layout.unit) : std::nullopt);

@@ -13,6 +13,7 @@
 #include "encoder/layers.hpp"
 #include "encoder/picture/drawing.hpp"
 #include "encoder/picture/palette.hpp"
+#include "encoder/stream/edge_marks.hpp"
 #include "encoder/verify/verify.hpp"
 
 namespace microtin::picture {
@@ -29,6 +30,7 @@ struct Portrait {
   std::string title;                // above the map; letters that lettering.hpp has
   bool coordinates = false;         // on the frame
   bool north_arrow = false;
+  std::vector<MarkedLine> lines = {};  // of the model's vertices
 };
 
 // How a terrain compares with its source.
@@ -41,8 +43,9 @@ constexpr uint32_t kNarrowest = 200, kWidest = 8192;
 
 // A PNG file, `width` pixels wide: shaded relief, tinted by height, in which the triangles' lines
 // fade in from the left to the right; heights, scale, size and errors, as far as the metadata tell.
-// With a comparison also a map of the errors. Only triangles all of whose vertices are at the water
-// level are water. Throws Error for other widths and if there is no vertex.
+// Lines of the terrain have the colour of their class. With a comparison also a map of the errors.
+// Only triangles all of whose vertices are at the water level are water. Throws Error for other
+// widths and if there is no vertex.
 std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
                                 const Comparison* comparison = nullptr);
 

@@ -17,6 +17,7 @@
 #include "encoder/product/phases.hpp"
 #include "encoder/product/true_bound.hpp"
 #include "encoder/stream/device_memory.hpp"
+#include "encoder/stream/edge_marks.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/terrain/breaklines.hpp"
 #include "encoder/terrain/clouds.hpp"
@@ -76,6 +77,18 @@ FoundBreaklines expect_breaklines(const microtin_mesh* mesh, const Source& sourc
                 parameter("xy_step") + ", or a larger " + parameter("max_error"));
   }
   return found;
+}
+
+// The edges along lines as lines of the mesh.
+std::vector<MarkedLine> marked_lines(const FoundBreaklines& found,
+                                     const std::vector<LineClass>& classes) {
+  std::vector<MarkedLine> lines;
+  lines.reserve(found.chains.size());
+  for (const FoundChain& chain : found.chains) {
+    const bool is_known = chain.line < classes.size();
+    lines.push_back({is_known ? classes[chain.line] : LineClass::kOther, chain.vertices});
+  }
+  return lines;
 }
 
 Metadata metadata_for(const Source& source, const EncodeOptions& options, const Laid& laid) {
@@ -203,6 +216,10 @@ Attempt assess(const Source& source, const EncodeOptions& options, Lessons& less
   if (options.digest) metadata.digest = microtin_mesh_digest(decoded.mesh());
   if (options.phases) metadata.phases = measure_phases(stream, kept);
   encoded.stream = with_metadata(stream, metadata);
+  if (encoded.breaklines) {
+    append_edge_marks(decoded.mesh(), marked_lines(encoded.breaklines->found, lattice.line_classes),
+                      encoded.stream);
+  }
   return result;
 }
 

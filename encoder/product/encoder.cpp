@@ -255,7 +255,9 @@ product::EncodeOptions options_of(const Options& options) {
   all.phases = options.phases;
   all.notes = notes_of(options);
   if (!options.breaklines.empty()) {
-    all.lattice.breaklines = importing::read_breaklines(options.breaklines);
+    importing::BreaklineFile read = importing::read_breaklines(options.breaklines);
+    all.lattice.breaklines = std::move(read.lines);
+    all.lattice.line_classes = std::move(read.classes);
   }
   if (!options.obstacles.empty()) product::imply_obstacles(all);
   return all;

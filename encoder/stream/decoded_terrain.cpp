@@ -10,6 +10,7 @@
 #include "encoder/stream/header.hpp"
 #include "encoder/terrain/exact_query.hpp"
 #include "shared/crc32.hpp"
+#include "shared/edge_marks.hpp"
 #include "shared/header.hpp"
 
 namespace microtin::stream {
@@ -41,6 +42,14 @@ struct StartedDecoder {
     expect_done(microtin_decoder_init(working.data(), working.size() * 8, mesh, &decoder));
   }
 };
+
+// All bytes of a chunk with this content.
+size_t bytes_of_chunk(uint64_t type, const uint8_t* begin, const uint8_t* end) {
+  std::vector<uint8_t> frame;
+  append_varint(frame, type);
+  append_varint(frame, static_cast<uint64_t>(end - begin));
+  return frame.size() + static_cast<size_t>(end - begin) + kCheckBytes;
+}
 
 }  // namespace
 
@@ -94,10 +103,12 @@ DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream, const Section
     if (visit && is_section && is_intact) visit(mesh_, at - header.info.header_bytes);
   }
   expect_done(microtin_decoder_finish(decoder));
-  expect_chunks(stream.data() + at, stream.data() + stream.size(),
-                [this](uint64_t type, const uint8_t* begin, const uint8_t* end) {
-                  if (type == MICROTIN_NOTE_BOUNDS && !bounds_) bounds_ = read_span(begin, end);
-                });
+  const uint8_t *const behind = stream.data() + at, *const end = stream.data() + stream.size();
+  expect_chunks(behind, end, [this](uint64_t type, const uint8_t* from, const uint8_t* to) {
+    if (type == MICROTIN_NOTE_BOUNDS && !bounds_) bounds_ = read_span(from, to);
+    if (type == kMarkChunk && mark_bytes_ == 0) mark_bytes_ = bytes_of_chunk(type, from, to);
+  });
+  marks_ = EdgeMarks(mesh_, behind, end);
   phases_ = microtin_decoder_phase(decoder);
 }
 

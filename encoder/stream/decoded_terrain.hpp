@@ -4,6 +4,7 @@
 #define MICROTIN_ENCODER_STREAM_DECODED_TERRAIN_HPP
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "encoder/layers.hpp"
+#include "encoder/stream/edge_marks.hpp"
 #include "encoder/terrain/metadata.hpp"
 #include "microtin/microtin.h"
 
@@ -38,8 +40,8 @@ class DecodedTerrain {
   // Called with the mesh at the end of a section, and the bytes of all sections so far.
   using SectionVisitor = std::function<void(const microtin_mesh* mesh, uint64_t bytes)>;
 
-  // Decodes a whole stream. Throws Error, saying what the decoder found, if it is not valid or if
-  // what follows its last section is not chunks.
+  // Decodes a whole stream. Throws Error, saying what the decoder found, if it is not valid, if
+  // what follows its last section is not chunks, or if the marks of its edges are malformed.
   explicit DecodedTerrain(const std::vector<uint8_t>& stream, const SectionVisitor& visit = {});
 
   DecodedTerrain(DecodedTerrain&&) = default;
@@ -52,11 +54,22 @@ class DecodedTerrain {
   // What a chunk states of posts with bounds of their own, if there is one.
   const std::optional<BoundSpan>& bounds() const { return bounds_; }
 
+  // How many edges have marks.
+  uint32_t marked_edges() const { return marks_.edges(); }
+
+  // Bytes of the chunk with marks, 0 if there is none.
+  std::size_t mark_bytes() const { return mark_bytes_; }
+
+  // The lines that the marked edges make.
+  std::vector<MarkedLine> lines() const { return marks_.lines(mesh_); }
+
  private:
   std::vector<uint64_t> storage_;  // aligned to MICROTIN_ALIGNMENT; mesh_ points into it
   microtin_mesh* mesh_ = nullptr;
   uint32_t phases_ = 0;
   std::optional<BoundSpan> bounds_;
+  EdgeMarks marks_;
+  std::size_t mark_bytes_ = 0;
 };
 
 // A decoded terrain as vertices and triangles: what is exported, drawn and put together of tiles.

@@ -10,6 +10,7 @@
 
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/terrain/line_class.hpp"
 #include "encoder/terrain/polygons.hpp"
 #include "encoder/terrain/source.hpp"
 #include "shared/lattice.hpp"
@@ -40,6 +41,7 @@ struct LatticeOptions {
   DuplicateRule duplicates = DuplicateRule::kMiddle;  // of points
   std::vector<Tightening> tightenings = {};           // by place
   std::vector<RealLine> breaklines = {};              // which become edges; with a bound
+  std::vector<LineClass> line_classes = {};           // of each of them
   BoundScope bound_at = BoundScope::kTruePlaces;
 };
 

@@ -251,11 +251,15 @@ class LineSearch {
     const Node end = nodes_[last];
     visit_between(end, {end.vertex, line_.length()}, add);
     std::size_t i = last;
+    FoundChain chain{line_.number(), {}};
     for (; parent_[i] != i; i = parent_[i]) {
       visit_between(nodes_[parent_[i]], nodes_[i], add);
       add(line_.at(nodes_[i].along), edges_.vertex(nodes_[i].vertex));
+      chain.vertices.push_back(nodes_[i].vertex);
       ++found.pieces;
     }
+    chain.vertices.push_back(nodes_[i].vertex);
+    found.chains.push_back(std::move(chain));
     add(line_.at(nodes_[i].along), edges_.vertex(nodes_[i].vertex));
     visit_between(nodes_[i], {nodes_[i].vertex, 0}, add);
   }

@@ -14,11 +14,18 @@
 
 namespace microtin::verifying {
 
+// The edges along one part of a line.
+struct FoundChain {
+  uint32_t line;                   // its number in the file
+  std::vector<uint32_t> vertices;  // each with an edge to the next one
+};
+
 struct FoundBreaklines {
   uint64_t lines = 0;    // of the file, at least partly over the terrain
   uint64_t pieces = 0;   // edges along them
   double max_shift = 0;  // between a line and its edges, in lattice steps
   double max_error = 0;  // between their heights, in z steps; of lines that have heights
+  std::vector<FoundChain> chains;
   std::optional<std::string> missing;  // which line has no such chain, and where
 };
 

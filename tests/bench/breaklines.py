@@ -7,6 +7,7 @@ bytes with and without these lines, at the same bound. Files stay in FOLDER. Cro
 ../shared/data; without it the synthetic one remains.
 """
 import argparse
+import json
 import os
 import re
 import subprocess
@@ -99,6 +100,13 @@ def encoded(program, terrain, bound, stream, words):
     return int(vertices), int(size)
 
 
+def marks(program, stream):
+    """Marked edges, and bytes of their chunk."""
+    command = [program, "info", "--json", stream]
+    found = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout)["lines"]
+    return found["edges"], found["bytes"]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", metavar="MICROTIN")
@@ -106,8 +114,9 @@ def main():
     parser.add_argument("--posts", type=int, default=500, metavar="N")
     given = parser.parse_args()
     os.makedirs(given.folder, exist_ok=True)
-    print("| terrain | bound | lines | posts along them | vertices without | with | more | bytes without | with | more |")
-    print("|---|---|---|---|---|---|---|---|---|---|")
+    print("| terrain | bound | lines | posts along them | vertices without | with | more | bytes without | with | more |"
+          " marked edges | bytes of marks |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     for name, x, y, width, height, *bounds in CROPS:
         terrain = search.source(given.program, given.folder, name, x, y, width, height)
         if terrain is None:
@@ -120,9 +129,10 @@ def main():
             after = encoded(given.program, terrain, bound, stream, ["--breaklines", path])
             subprocess.run([given.program, "verify", stream, terrain, "--units", "metre", "--breaklines", path],
                            check=True, stdout=subprocess.DEVNULL)
+            edges, size = marks(given.program, stream)
             more = [f"{100 * (b / a - 1):.1f} %" for a, b in zip(before, after)]
             print(f"| {name} | {bound} | {lines} | {posts} | {before[0]} | {after[0]} | {more[0]} |"
-                  f" {before[1]} | {after[1]} | {more[1]} |", flush=True)
+                  f" {before[1]} | {after[1]} | {more[1]} | {edges} | {size} |", flush=True)
 
 
 if __name__ == "__main__":

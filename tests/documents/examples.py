@@ -23,7 +23,8 @@ BEFORE = {
     "decoder/docs/memory.md": "static microtin::Terrain<5000> terrain;\nstatic microtin::Decoder<5000> decoder(terrain);\n",
     "decoder/docs/packs.md": READ_CARD
     + "static microtin_pack* pack;\nstatic int64_t x, y, x_ahead, y_ahead;\nstatic int card;\nstatic uint32_t hint;\nstatic int32_t height;\n",
-    "decoder/docs/queries.md": "static microtin::Terrain<5000> terrain;\nstatic int32_t x, y, height;\nstatic uint32_t hint;\nvoid use(int32_t height);\nvoid keep_above(int32_t height);\n",
+    "decoder/docs/queries.md": "static microtin::Terrain<5000> terrain;\nstatic int32_t x, y, height;\nstatic uint32_t hint;\nvoid use(int32_t height);\nvoid keep_above(int32_t height);\n"
+    "static const uint8_t* bytes;\nstatic size_t size;\nvoid stay_away(void);\n",
     "decoder/docs/rtos.md": READ_CARD + "void lock(void), unlock(void), sleep_ms(int milliseconds);\n",
     "encoder/docs/library.md": "#include <stdio.h>\n#include <string.h>\nstatic uint32_t columns, rows;\n"
     "static const float* heights;\n#ifdef __cplusplus\nstatic microtin::encoder::Transform transform;\n"
@@ -31,7 +32,7 @@ BEFORE = {
     "static microtin::encoder::Options options;\nstatic std::vector<std::string> shard_files;\n#else\nstatic double transform[6];\n"
     "void save(const uint8_t* bytes, uint64_t byte_count);\n#endif\n",
 }
-HEADERS = {"c": ("requests.h",), "cpp": ("microtin.hpp", "compact_pack.hpp", "requests.h")}
+HEADERS = {"c": ("requests.h",), "cpp": ("microtin.hpp", "compact_pack.hpp", "requests.h", "edge_marks.h")}
 HOSTED = {"c": ("encoder.h",), "cpp": ("encoder.hpp", "surface.hpp")}
 FUNCTION = re.compile(r"^(?!if|for|while|switch)\w[^;=\n]*\) \{", re.M)
 WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-Wno-unused-variable", "-Wno-unused-but-set-variable",
