@@ -31,7 +31,7 @@ struct EncodeRequest : EncodeOptions {
 void run_encode(EncodeRequest request);
 
 // Prints, for each shard, a line with the options that encode it as a single run would.
-void run_plan(const EncodeRequest& request, uint32_t shards);
+void run_plan(EncodeRequest request, uint32_t shards);
 
 struct UpdateRequest : EncodeRequest {
   std::string old;                     // the pack
@@ -39,7 +39,7 @@ struct UpdateRequest : EncodeRequest {
 };
 
 // Writes a pack in which only the tiles are new that the old one does not have for the terrain.
-void run_update(const UpdateRequest& request);
+void run_update(UpdateRequest request);
 
 void run_merge(const std::vector<std::string>& shards, const std::string& output);
 

@@ -132,7 +132,7 @@ std::string few_digits(double value) {
 std::string along_lines(const EncodedStream& encoded) {
   if (!encoded.breaklines) return "";
   const auto& [found, cost] = *encoded.breaklines;
-  std::string text = "breaklines: " + std::to_string(found.lines) + " lines are " +
+  std::string text = "breaklines: " + std::to_string(found.lines.size()) + " lines are " +
                      std::to_string(found.pieces) + " edges between " +
                      std::to_string(cost.on_lines) + " vertices, of which " +
                      std::to_string(std::max<int64_t>(cost.added, 0)) +
@@ -339,6 +339,13 @@ void expect_own_resume_file(const EncodeRequest& request) {
   throw Error(request.resume + ": is also the output; name another file for --resume");
 }
 
+void take_breaklines(EncodeRequest& request) {
+  if (request.breaklines.empty()) return;
+  BreaklineFile read = read_breaklines(request.breaklines);
+  request.lattice.breaklines = std::move(read.lines);
+  request.lattice.line_classes = std::move(read.classes);
+}
+
 }  // namespace
 
 void run_encode(EncodeRequest request) {
@@ -348,19 +355,16 @@ void run_encode(EncodeRequest request) {
   OutputFile out(request.output);  // fails early if it cannot be written
   announce_left_out(request);
   announce_memory(request);
-  if (!request.breaklines.empty()) {
-    BreaklineFile read = read_breaklines(request.breaklines);
-    request.lattice.breaklines = std::move(read.lines);
-    request.lattice.line_classes = std::move(read.classes);
-  }
+  take_breaklines(request);
   deliver(out, request.output,
           makes_pack(request) ? encode_tiled(request, out) : encode_whole(request, out));
   std::error_code none;
   if (!request.resume.empty()) fs::remove(fs::u8path(request.resume), none);
 }
 
-void run_plan(const EncodeRequest& request, uint32_t shards) {
+void run_plan(EncodeRequest request, uint32_t shards) {
   refuse_overwriting(inputs_of(request), "-");
+  take_breaklines(request);
   const std::unique_ptr<RasterReader> raster = open_raster(request);
   const std::vector<ShardPlan> plans = with_file_context(request.input, [&] {
     ProgressBar bar;
@@ -374,13 +378,14 @@ void run_plan(const EncodeRequest& request, uint32_t shards) {
   print(text);
 }
 
-void run_update(const UpdateRequest& request) {
+void run_update(UpdateRequest request) {
   std::vector<std::string> inputs = inputs_of(request);
   inputs.push_back(request.old);
   refuse_overwriting(inputs, request.output);
   expect_own_suffix(request.output, true);
   OutputFile out(request.output);
   announce_left_out(request);
+  take_breaklines(request);
   Preparation preparation = request.preparation;
   preparation.max_error = max_error_of_map(request.old);
   const OpenSource source = prepared_source(request.input, preparation);

@@ -189,6 +189,7 @@ void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>&
       "lie. lattice: at the lattice positions that stand for points. everywhere: on "
       "the whole surface of a raster, compared with the bilinear one of its posts");
   add_obstacles(command, request->preparation);
+  add_breaklines(command, request->breaklines, "Make edges along");
   begin_group(command, "Lattice");
   add_decimal(command, "--z-step METRES", request->lattice.z_step,
               "Set the step of heights, in the terrain's unit")
@@ -232,8 +233,6 @@ void add_encode(CLI::App& app, Action& action) {
   add_output(command, request->output,
              "Write this stream (.mtin) or pack (.mtp); - is standard output");
   add_encode_options(command, request);
-  begin_group(command, "Lines");
-  add_breaklines(command, request->breaklines, "Make edges of a stream along");
   begin_group(command, "Shards of a pack");
   const auto read = [request](const std::string& text) {
     return read_tiles(text, request->tiles.emplace());
@@ -289,6 +288,7 @@ void add_update(CLI::App& app, Action& action) {
            "Keep the pack's bound at posts, or between them, too")
       ->default_str("everywhere if the pack's margins are within the bound, or over obstacles");
   add_obstacles(command, request->preparation);
+  add_breaklines(command, request->breaklines, "Make edges of all tiles along");
   add_number(command, "--tile-vertices N", request->tile_vertices, kFewestTileVertices,
              "Let new tiles have at most N vertices each", uint32_t{kMaxVertices})
       ->default_str("as many as the pack states");

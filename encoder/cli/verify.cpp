@@ -54,7 +54,7 @@ JsonObject report_of(const Original::Judgement& judgement, const Metadata& notes
 }
 
 std::string text_of(const FoundBreaklines& found, const Placement& placement) {
-  return json(JsonObject{{"lines", json(found.lines)},
+  return json(JsonObject{{"lines", json(uint64_t{found.lines.size()})},
                          {"edges", json(found.pieces)},
                          {"max_shift", json(found.max_shift)},
                          {"max_error", json(found.max_error * step_of(placement.z))}});

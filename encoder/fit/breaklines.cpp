@@ -71,8 +71,7 @@ int steps_between(Point a, Point b) {
 }
 
 double away_from(const LatticeLine& line, const LineVertex& vertex) {
-  return terrain::distance(line.at(vertex.along),
-                           {double{0} + vertex.place.x, double{0} + vertex.place.y, 0});
+  return terrain::distance(line.at(vertex.along), terrain::place_of(vertex.place));
 }
 
 class Conforming {
@@ -182,12 +181,13 @@ class Conforming {
     numbers_ = numbers_of(tin_);
     Triangulation triangulation(places_of(tin_));
     std::vector<terrain::Pin> pins;
-    bool is_split = true;
+    bool is_split = true, has_split = false;
     while (is_split) {
       is_split = false;
       for (Chain& chain : laid_.breaklines) is_split |= split(triangulation, chain, pins);
+      has_split |= is_split;
     }
-    if (pins.empty()) return false;
+    if (!has_split) return false;
     terrain::pin(laid_.survey, std::move(pins), laid_.line_room, laid_.placement);
     return true;
   }
@@ -202,7 +202,7 @@ class Conforming {
         if (middle) {
           if (++splits_ > most_splits_) fail(chain.line.at(middle->along));
           add(triangulation, chain.vertices[i - 1], vertex, middle->place);
-          terrain::add_pins(chain.line, *middle, pins);
+          terrain::add_pins(laid_, chain.line, *middle, pins);
           vertices.push_back(*middle);
         }
       }
@@ -218,7 +218,8 @@ class Conforming {
     ++chains_at_[key(place)];
     if (numbers_.count(key(place)) != 0) return;
     const Index from = numbers_.at(key(a.place)), to = numbers_.at(key(b.place));
-    const double share = terrain::share_of(place_of(place), place_of(a.place), place_of(b.place));
+    const double share = terrain::share_of(terrain::place_of(place), terrain::place_of(a.place),
+                                           terrain::place_of(b.place));
     const double low = tin_.vertices[from].z, high = tin_.vertices[to].z;
     const Index v = triangulation.insert(place, triangulation.edge_of(from));
     numbers_[key(place)] = v;
@@ -226,15 +227,14 @@ class Conforming {
         {place.x, place.y, static_cast<int16_t>(std::lround(low + (high - low) * share))});
   }
 
-  static LinePlace place_of(Point p) { return {double{0} + p.x, double{0} + p.y, 0}; }
-
   // The vertex that a piece needs between its ends; nothing if it is an edge.
   std::optional<LineVertex> between(const Triangulation& triangulation, const LatticeLine& line,
                                     const LineVertex& a, const LineVertex& b) const {
     const auto worst = terrain::worst_between(line, a, b, laid_.line_room);
     const auto at = [&](Point p) { return terrain::chain_vertex(line, p, a.along, b.along); };
     if (worst) {
-      return LineVertex{terrain::nearest_position(line.places()[*worst]), line.along(*worst)};
+      const Point place = terrain::nearest_position(line.places()[*worst]);
+      if (may_stand(place)) return LineVertex{place, line.along(*worst)};
     }
     const Index from = numbers_.at(key(a.place)), to = numbers_.at(key(b.place));
     const Way there = way_from(triangulation, from, to);
@@ -250,10 +250,38 @@ class Conforming {
       break;
     }
     for (const double where : {along, (a.along + b.along) / 2}) {
-      const Point place = terrain::nearest_position(line.at(where));
-      if (place != a.place && place != b.place) return LineVertex{place, where};
+      if (const auto vertex = splitting(line, a, b, where)) return vertex;
     }
+    if (const auto vertex = stand_between(line, a, b, along)) return vertex;
     return nearest_between(line, a, b);
+  }
+
+  bool may_stand(Point place) const { return terrain::may_stand(laid_, place); }
+
+  // The vertex at a place of the line, if that splits the piece.
+  std::optional<LineVertex> splitting(const LatticeLine& line, const LineVertex& a,
+                                      const LineVertex& b, double where) const {
+    const Point place = terrain::nearest_position(line.at(where));
+    if (place == a.place || place == b.place || !may_stand(place)) return std::nullopt;
+    return LineVertex{place, where};
+  }
+
+  // Where not all positions may be vertices: the first one on the line from a length on, forwards
+  // or backwards, that may be one.
+  std::optional<LineVertex> stand_between(const LatticeLine& line, const LineVertex& a,
+                                          const LineVertex& b, double from) const {
+    constexpr double kStride = 0.25;
+    if (!laid_.is_shared) return std::nullopt;
+    const double low = std::min(a.along, b.along), high = std::max(a.along, b.along);
+    const auto strides = static_cast<int64_t>((high - low) / kStride);
+    for (int64_t i = 1; i <= strides; ++i) {
+      const double away = static_cast<double>(i) * kStride;
+      for (const double where : {from - away, from + away}) {
+        if (where <= low || where >= high) continue;
+        if (const auto vertex = splitting(line, a, b, where)) return vertex;
+      }
+    }
+    return std::nullopt;
   }
 
   // Where to split a piece for a vertex near it: where that projects on the line or, at a vertex
@@ -262,12 +290,13 @@ class Conforming {
   double split_near(const LatticeLine& line, const LineVertex& a, const LineVertex& b,
                     Point v) const {
     const double low = std::min(a.along, b.along), high = std::max(a.along, b.along);
-    if (chains_at(v) == 0) return line.foot(v, low, high);
+    const double foot = line.foot(terrain::place_of(v), low, high);
+    if (chains_at(v) == 0) return foot;
     double step = 1;
     while (3 * step <= high - low) step *= 2;
     if (chains_at(a.place) > 1) return a.along + step;
     if (chains_at(b.place) > 1) return b.along - step;
-    return line.foot(v, low, high);
+    return foot;
   }
 
   std::size_t chains_at(Point p) const {
@@ -285,11 +314,13 @@ class Conforming {
   // Returns the position nearest to the line in the box around a short piece.
   LineVertex nearest_between(const LatticeLine& line, const LineVertex& a,
                              const LineVertex& b) const {
+    constexpr int kMostSteps = 64;
+    if (steps_between(a.place, b.place) > kMostSteps) fail(line.at(a.along));
     std::optional<LineVertex> best;
     for (int x = std::min(a.place.x, b.place.x); x <= std::max(a.place.x, b.place.x); ++x) {
       for (int y = std::min(a.place.y, b.place.y); y <= std::max(a.place.y, b.place.y); ++y) {
         const Point place{static_cast<uint16_t>(x), static_cast<uint16_t>(y)};
-        if (place == a.place || place == b.place) continue;
+        if (place == a.place || place == b.place || !may_stand(place)) continue;
         const LineVertex one = terrain::chain_vertex(line, place, a.along, b.along);
         if (!best || away_from(line, one) < away_from(line, *best)) best = one;
       }

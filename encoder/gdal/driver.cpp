@@ -88,8 +88,8 @@ void GDALRegister_MTIN() {
       "side'/>"
       "<Option name='ROUTE_EDGE_ERROR' type='string' description='The bound at the edges of "
       "ROUTE_WIDTH, to which it grows from MAX_ERROR at a route'/>"
-      "<Option name='BREAKLINES' type='string' description='Of streams: a file of lines along "
-      "which the surface has edges'/>"
+      "<Option name='BREAKLINES' type='string' description='A file of lines along which the "
+      "surface has edges; not for packs of points'/>"
       "<Option name='OBSTACLES' type='string' description='Raise the terrain to what "
       "stands on it, as this GeoJSON file says; needs MAX_ERROR'/>"
       "</CreationOptionList>";

@@ -345,6 +345,31 @@ std::vector<LinePost> posts_of_sparse_line(const TiledRaster& tiled, const TileP
   return on_line;
 }
 
+// Leaves out pins at void posts.
+std::vector<Pin> at_samples(std::vector<Pin> pins, const Survey& survey) {
+  const std::vector<Point> places = places_of(survey.samples);
+  pins.erase(std::remove_if(pins.begin(), pins.end(),
+                            [&](const Pin& pin) {
+                              return !std::binary_search(places.begin(), places.end(), pin.place);
+                            }),
+             pins.end());
+  return pins;
+}
+
+// The posts of a border; those that breaklines need as vertices are fixed.
+Survey survey_of_border(const TiledRaster& tiled, const TilePosts& posts, const TileBox& line) {
+  const Raster part = posts.crop_of(line);
+  Survey survey = survey_of(tiled, part);
+  if (tiled.lines == nullptr) return survey;
+  BorderPins pins = tiled.lines->pins_on(tiled.grid, line);
+  const Placement lattice{part.x, part.y, tiled.lattice.placement.z};
+  for (std::vector<Pin>* const some : {&pins.heights, &pins.vertices}) {
+    survey.fixed.clear();
+    terrain::pin(survey, at_samples(std::move(*some), survey), line_room(tiled), lattice);
+  }
+  return survey;
+}
+
 // Aims at the ground on both sides: a border that follows the noise of its own posts stands out.
 std::vector<LinePost> posts_of_line(const TiledRaster& tiled, const TilePosts& posts,
                                     const TileBox& line) {
@@ -353,9 +378,11 @@ std::vector<LinePost> posts_of_line(const TiledRaster& tiled, const TilePosts& p
   const TileBox strip = with_ground(tiled, line);
   const Ground ground(survey_of(tiled, posts.crop_of(strip)).samples, strip.x_end - strip.x + 1,
                       strip.y_end - strip.y + 1);
-  for (const Sample& sample : survey_of(tiled, posts.crop_of(line)).samples) {
+  const Survey survey = survey_of_border(tiled, posts, line);
+  for (const Sample& sample : survey.samples) {
     on_line[place_on_line(sample)] = post_with_aim(posts, ground, strip, line, sample);
   }
+  for (const Point place : survey.fixed) on_line[std::size_t{place.x} + place.y].kept = true;
   return on_line;
 }
 

@@ -6,11 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "encoder/fit/error_model.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/pack/tiled_lines.hpp"
 #include "encoder/terrain/lay_out.hpp"
 #include "encoder/terrain/raster_reader.hpp"
 #include "encoder/terrain/survey.hpp"
@@ -79,8 +81,15 @@ struct TiledRaster {
   Lattice lattice;  // choose_post_lattice with the options, or that of the tiles that are kept
   LatticeOptions options;
   TileGrid grid;
-  const KeptTiles* kept = nullptr;  // if the raster changes and most tiles do not
+  const KeptTiles* kept = nullptr;                    // if the raster changes and most tiles do not
+  std::shared_ptr<const TiledLines> lines = nullptr;  // breaklines; the options have none
 };
+
+// The heights that the bound leaves a surface on breaklines, which need one.
+inline LineRoom line_room(const TiledRaster& tiled) {
+  return terrain::room_of(*tiled.options.max_error, tiled.options.never_below,
+                          step_of(tiled.lattice.placement.z));
+}
 
 // The posts of a tile and those within kGroundReach, or farther if posts are not at every place:
 // all that a tile depends on.

@@ -64,7 +64,9 @@ Decimal choose_z_step(const Raster& part, Decimal least, const LatticeOptions& l
 // Chooses the heights' lattice for all tiles.
 TiledRaster tiled_raster(const RasterReader& raster, const RasterScan& scanned,
                          const PackOptions& options, const Progress& progress) {
-  LatticeOptions lattice = first_fit(options.lattice), kept = options.lattice;
+  LatticeOptions kept = options.lattice;
+  kept.breaklines.clear();
+  LatticeOptions lattice = first_fit(kept);
   const Raster& frame = raster.frame();
   if (options.simplify.bounded && !lattice.z_step && !scanned.has_exact_posts) {
     try {
@@ -118,6 +120,7 @@ PackPlan plan_pack(const RasterReader& raster, const PackOptions& options) {
   if (raster.frame().width < 2 || raster.frame().height < 2)
     throw Error("a pack needs two posts in each direction");
   if (is_bound_everywhere(options.lattice)) expect_equal_distances(raster.frame());
+  expect_breaklines_possible(options.lattice, raster.frame());
   const Progress& progress = options.simplify.progress;
   const bool chooses_z_step = options.simplify.bounded && !options.lattice.z_step;
   const RasterScan scanned =
@@ -125,6 +128,7 @@ PackPlan plan_pack(const RasterReader& raster, const PackOptions& options) {
   const double begun = chooses_z_step ? kStepPart : kScanPart;
   PackPlan plan{tiled_raster(raster, scanned, options, progress.part(kScanPart, begun)), options,
                 options.tile_size, scanned.fingerprint, begun};
+  plan.tiled.lines = tiled_lines(options.lattice.breaklines, plan.tiled.lattice.placement);
   if (plan.tile_size == 0) {
     plan.planned += (1 - begun) * counting_part(raster.frame(), options);
     plan.tile_size = choose_tile_size(plan.tiled, options, progress.part(begun, plan.planned));

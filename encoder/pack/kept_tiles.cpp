@@ -7,6 +7,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/terrain/exact_query.hpp"
+#include "encoder/verify/breaklines.hpp"
 #include "encoder/verify/everywhere.hpp"
 #include "encoder/verify/everywhere_bound.hpp"
 #include "encoder/verify/water_gauge.hpp"
@@ -63,6 +64,15 @@ bool keeps_everywhere(const LatticeOptions& options, const microtin_mesh* mesh, 
   return !is_bound_everywhere(options) || EverywhereBound(part, options, lattice).see(mesh) == 0;
 }
 
+// Whether a tile has edges along all lines.
+bool keeps_lines(const TiledRaster& tiled, const TilePosts& posts, const microtin_mesh* mesh,
+                 const Raster& part, const Placement& lattice) {
+  if (tiled.lines == nullptr) return true;
+  const std::vector<LatticeLine> lines =
+      parts_of(tiled.lines->in_tile(tiled.grid, posts.box()), part);
+  return !verifying::find_breaklines(mesh, lines, line_room(tiled), lattice).missing;
+}
+
 // Without a bound every post is a vertex, at the nearest step.
 Decimal bound_of(const TiledRaster& tiled) {
   if (tiled.options.max_error) return *tiled.options.max_error;
@@ -101,6 +111,7 @@ KeptTiles::Tile KeptTiles::examined(uint32_t number) const {
   tile.border = border_of(decoded->mesh(), sides);
   tile.is_kept = keeps_options(changed_.options, found, gauge.moved()) &&
                  keeps_everywhere(changed_.options, decoded->mesh(), part, lattice) &&
+                 keeps_lines(changed_, posts, decoded->mesh(), part, lattice) &&
                  parts_voids(posts, sides, tile.border) &&
                  states_bounds(decoded->bounds(), found.bounds) &&
                  is_within(stated, margins_of(measure_gap(decoded->mesh(), lattice, part)));

@@ -17,10 +17,10 @@ namespace microtin::pack {
 
 // A tile is kept if it does for the posts of the changed raster all that an encoded tile does. It
 // covers every post with a height, within the bound and on the bound's side, and no void post.
-// Water has its level. The margins that the tile states hold. The posts of its borders next to
-// voids are vertices, so that a neighbour can be encoded anew. A tile without terrain is kept if no
-// post with a height belongs to that tile alone. A tile of the old pack that cannot be read is not
-// kept.
+// Water has its level, and breaklines are edges. The margins that the tile states hold. The posts
+// of its borders next to voids are vertices, so that a neighbour can be encoded anew. A tile
+// without terrain is kept if no post with a height belongs to that tile alone. A tile of the old
+// pack that cannot be read is not kept.
 class KeptTiles {
  public:
   // Reads and decodes every tile of the old pack, on all processors. All three must outlive this.

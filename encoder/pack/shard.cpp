@@ -40,6 +40,7 @@ Bytes write_identity(const PackPlan& plan, const PackContent& pack) {
   append_number(identity, options.lattice.never_below ? 1 : 0, 1);
   append_number(identity, is_bound_everywhere(options.lattice) ? 1 : 0, 1);
   append_number(identity, plan.fingerprint, 8);
+  if (plan.tiled.lines != nullptr) append_number(identity, plan.tiled.lines->fingerprint(), 8);
   return identity;
 }
 

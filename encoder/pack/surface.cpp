@@ -13,6 +13,7 @@
 #include "encoder/base/progress.hpp"
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/pack/borders.hpp"
+#include "encoder/pack/tiled_lines.hpp"
 #include "encoder/verify/everywhere.hpp"
 #include "encoder/verify/verify.hpp"
 
@@ -141,6 +142,27 @@ SurfaceModel model_of(const PackFile& pack) {
   SurfaceModel model = joining.take();
   model.placement = pack.metadata().placement;
   return model;
+}
+
+FoundBreaklines find_breaklines(const PackFile& pack, const RasterReader& raster,
+                                const std::vector<RealLine>& lines,
+                                const std::optional<LineRoom>& room) {
+  expect_posts_of(raster.frame(), pack);
+  const TileGrid& grid = pack.grid();
+  const Placement lattice = pack.metadata().placement;
+  const TiledLines tiled(lines, lattice);
+  FoundBreaklines all;
+  for (uint32_t number = 0; number < pack.entries().size(); ++number) {
+    const TileBox box = tile_box(grid, number);
+    const LinesInTile in_tile = tiled.in_tile(grid, box);
+    if (in_tile.paths.empty()) continue;
+    const Raster part = raster.read({box.x, box.y, box.x_end - box.x + 1, box.y_end - box.y + 1});
+    const std::vector<LatticeLine> parts = parts_of(in_tile, part);
+    const std::optional<DecodedTerrain> tile = pack.tile(number);
+    if (parts.empty() || !tile) continue;
+    add(verifying::find_breaklines(tile->mesh(), parts, room, {part.x, part.y, lattice.z}), all);
+  }
+  return all;
 }
 
 Verification verify(const PackFile& pack, const RasterReader& raster,

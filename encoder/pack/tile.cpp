@@ -111,7 +111,7 @@ uint32_t count_vertices(const TiledRaster& tiled, uint32_t tile, const SimplifyO
   const TilePosts posts(tiled, tile);
   TileFit fit(tiled, posts);
   if (!fit.has_terrain()) return 0;
-  const bool is_final = !is_bound_everywhere(tiled.options);
+  const bool is_final = !is_bound_everywhere(tiled.options) && tiled.lines == nullptr;
   const Tin tin = is_final ? fit.first(options) : fit.fit(options).tin;
   return static_cast<uint32_t>(tin.vertices.size());
 }

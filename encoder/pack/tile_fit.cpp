@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
+#include "encoder/fit/breaklines.hpp"
 #include "encoder/pack/border_strip.hpp"
+#include "encoder/verify/breaklines.hpp"
 #include "encoder/verify/water_gauge.hpp"
 
 namespace microtin::pack {
@@ -81,38 +83,62 @@ TileFit::TileFit(const TiledRaster& tiled, const TilePosts& posts)
       posts_(posts),
       sides_(tiled.grid, posts.box()),
       part_(posts.tile()),
-      shared_(shared_vertices(tiled, posts)),
-      survey_(first_survey(tiled, posts, shared_)) {
+      shared_(shared_vertices(tiled, posts)) {
+  laid_.placement = lattice();
+  laid_.survey = first_survey(tiled, posts, shared_);
   if (is_bound_everywhere(tiled.options)) everywhere_.emplace(part_, tiled.options, lattice());
+  if (tiled.lines != nullptr) add_lines();
+}
+
+// Positions of borders are those of both tiles: chains take the vertices that are there.
+void TileFit::add_lines() {
+  const LinesInTile lines = tiled_.lines->in_tile(tiled_.grid, posts_.box());
+  lines_ = parts_of(lines, part_);
+  laid_.line_room = line_room(tiled_);
+  laid_.is_shared = [this](Point place) { return sides_.shares(place); };
+  laid_.breaklines = chains_of(lines_, laid_.line_room, lines.stops,
+                               [this](Point place) { return may_stand(laid_, place); });
+  pin_chains(laid_);
+}
+
+void TileFit::expect_edges(const microtin_mesh* mesh) const {
+  const FoundBreaklines found =
+      verifying::find_breaklines(mesh, lines_, laid_.line_room, laid_.placement);
+  if (!found.missing) return;
+  throw Error(parameter("breaklines") + ": " + *found.missing + "; use a larger " +
+              parameter("max_error") + ", or make a stream (.mtin)");
 }
 
 bool TileFit::has_terrain() const {
   const TileBox& box = posts_.box();
   if (forms_triangle()) return true;
-  if (survey_.samples.size() == survey_.fixed.size()) return false;
+  if (laid_.survey.samples.size() == laid_.survey.fixed.size()) return false;
   throw Error("the tile from column " + std::to_string(box.x) + ", row " + std::to_string(box.y) +
-              " has only " + std::to_string(survey_.samples.size()) +
+              " has only " + std::to_string(laid_.survey.samples.size()) +
               " heights, which do not form a triangle; change " + parameter("tile_vertices"));
 }
 
 FittedTile TileFit::fit(const SimplifyOptions& options) {
   Tin tin = first(options);
   for (;;) {  // ends: there are always more fixed posts, or narrower limits a few times
+    keep_breaklines(laid_, tin);
     Encoding encoded = encode_and_decode(tin, Metadata(), options.effort, origin_of(posts_.box()));
     const microtin_mesh* const mesh = encoded.decoded.mesh();
     const std::optional<Decimal>& bound = tiled_.options.max_error;
     WaterGauge gauge(part_.decimals, bound ? tiled_.options.water_level : std::nullopt);
     const Verification measured = verifying::verify(mesh, lattice(), part_, bound, gauge.visitor());
     if (measured.uncovered != 0) {
-      fix_beside(uncovered_posts(mesh, part_, posts_.box()), part_, posts_.box(), sides_, survey_);
-      tin = everywhere_ ? mended(survey_, tin) : first(options);
+      fix_beside(uncovered_posts(mesh, part_, posts_.box()), part_, posts_.box(), sides_,
+                 laid_.survey);
+      tin = everywhere_ ? mended(laid_.survey, tin) : first(options);
       continue;
     }
     check_shared(mesh, sides_, shared_);
     if (!keeps_options(tiled_.options, measured, gauge.moved()))
       fail_tile("does not meet the options");
+    expect_edges(mesh);
     if (!everywhere_ || !narrow(mesh)) return {std::move(tin), std::move(encoded), measured};
-    tin = mended(survey_, tin);
+    tin = mended(laid_.survey, tin);
   }
 }
 
@@ -130,9 +156,9 @@ bool TileFit::narrow(const microtin_mesh* mesh) {
     if (one.is_vertex) fixed.push_back(one.place);
   }
   pin_beside_borders(fixed, narrower);
-  std::set_union(survey_.fixed.begin(), survey_.fixed.end(), fixed.begin(), fixed.end(),
+  std::set_union(laid_.survey.fixed.begin(), laid_.survey.fixed.end(), fixed.begin(), fixed.end(),
                  std::inserter(narrower.fixed, narrower.fixed.end()));
-  survey_ = std::move(narrower);
+  laid_.survey = std::move(narrower);
   return true;
 }
 

@@ -37,19 +37,21 @@ class TileFit {
   Placement lattice() const { return {part_.x, part_.y, tiled_.lattice.placement.z}; }
 
   // Whether a stream can hold the tile: its samples do not lie on one line.
-  bool forms_triangle() const { return form_triangle(survey_.samples); }
+  bool forms_triangle() const { return form_triangle(laid_.survey.samples); }
 
   // Whether the tile has a triangle. Throws Error if not, and posts of the tile lie on no border,
   // so that no other tile holds them.
   bool has_terrain() const;
 
   // A surface that keeps the options at posts, and maybe not between them.
-  Tin first(const SimplifyOptions& options) const { return simplify(survey_, options); }
+  Tin first(const SimplifyOptions& options) const { return simplify(laid_.survey, options); }
 
   // A surface that keeps all options, measured. Throws Error as encode_tile does.
   FittedTile fit(const SimplifyOptions& options);
 
  private:
+  void add_lines();
+  void expect_edges(const microtin_mesh* mesh) const;
   bool narrow(const microtin_mesh* mesh);
   std::map<Point, Tightening> limits_inside() const;
   std::vector<Point> beside_edges(Point post) const;
@@ -63,7 +65,8 @@ class TileFit {
   TileSides sides_;
   Raster part_;
   SharedVertices shared_;
-  Survey survey_;
+  Laid laid_;
+  std::vector<LatticeLine> lines_;
   std::optional<EverywhereBound> everywhere_;
   int attempts_ = 0;
 };

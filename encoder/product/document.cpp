@@ -211,11 +211,6 @@ Verification Original::compare(const std::optional<Decimal>& bound, const Progre
 }
 
 FoundBreaklines Original::breaklines(const std::vector<RealLine>& lines) const {
-  const auto* const source = std::get_if<Source>(&source_);
-  if (source == nullptr) {
-    throw Error(document_.path() + ": is a pack, and " + parameter("breaklines") +
-                " is for streams; leave it out");
-  }
   const Metadata metadata = document_.metadata();
   const Placement& lattice = metadata.placement;
   const std::optional<Decimal> bound = promise().bound;
@@ -224,9 +219,19 @@ FoundBreaklines Original::breaklines(const std::vector<RealLine>& lines) const {
     room = terrain::room_of(*bound, metadata.side == BoundSide::kNeverBelow,
                             exact::step_of(lattice.z));
   }
-  return find_breaklines(document_.stream()->terrain.mesh(),
-                         lines_over(terrain::line_ground_of(*source, lattice), lines, lattice),
-                         room, lattice);
+  if (const auto* const whole = std::get_if<Source>(&source_)) {
+    return find_breaklines(document_.stream()->terrain.mesh(),
+                           lines_over(terrain::line_ground_of(*whole, lattice), lines, lattice),
+                           room, lattice);
+  }
+  const auto* const raster =
+      std::get_if<std::unique_ptr<RasterReader>>(&std::get<OpenSource>(source_));
+  if (raster == nullptr) {
+    throw Error(document_.path() + ": is a pack of points, which has no " +
+                parameter("breaklines") + "; leave it out");
+  }
+  return with_file_context(
+      document_.path(), [&] { return find_breaklines(*document_.pack(), **raster, lines, room); });
 }
 
 Original::Judgement Original::judge(const Progress& progress) const {

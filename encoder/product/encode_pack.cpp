@@ -54,6 +54,10 @@ PackOptions raster_options(const EncodeOptions& options, const Progress& progres
 
 PackOptions point_options(const EncodeOptions& options) {
   refuse_everywhere_of_points(options);
+  if (!options.lattice.breaklines.empty()) {
+    throw Error(parameter("breaklines") +
+                " is for packs of rasters, and these are points; make a stream (.mtin)");
+  }
   if (options.tile_size != 0) {
     throw Error(parameter("tile_size") + " is for rasters, and these are points; leave it out");
   }

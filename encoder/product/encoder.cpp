@@ -232,7 +232,6 @@ void check_pack_options(const Options& options, bool has_map) {
   expect_default("max_bytes", options.max_bytes == 0, "streams");
   expect(!options.never_below || has_map || !options.max_error.empty(),
          base::parameter("never_below") + " needs " + base::parameter("max_error"));
-  expect_default("breaklines", options.breaklines.empty(), "streams");
 }
 
 product::EncodeOptions options_of(const Options& options) {

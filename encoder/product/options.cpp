@@ -70,10 +70,6 @@ void refuse_everywhere_of_points(const EncodeOptions& options) {
 }
 
 void refuse_options_of_streams(const EncodeOptions& options) {
-  if (!options.lattice.breaklines.empty()) {
-    throw Error(parameter("breaklines") +
-                " is for streams; make a stream (.mtin), or leave it out");
-  }
   if (options.max_vertices != 0 || options.max_bytes != 0) {
     throw Error(parameter("max_vertices") + " and " + parameter("max_bytes") +
                 " are for streams; for a pack use " + parameter("max_error") + ", or no bound");

@@ -124,10 +124,11 @@ Error too_large(const TileTooLarge& tile, const PackFile& old) {
 }
 
 PackPlan plan_of(const PackFile& old, const RasterReader& raster, const PackOptions& options,
-                 const RasterScan& scanned) {
+                 const RasterScan& scanned, const std::vector<RealLine>& breaklines) {
   const Lattice lattice = post_lattice_at(raster.frame(), scanned.heights,
                                           old.metadata().placement.z, first_fit(options.lattice));
-  return {{raster, lattice, options.lattice, old.grid()},
+  const auto lines = tiled_lines(breaklines, lattice.placement);
+  return {{raster, lattice, options.lattice, old.grid(), nullptr, lines},
           options,
           old.grid().width,
           scanned.fingerprint,
@@ -150,9 +151,12 @@ UpdatedPack update_pack(const std::string& old_path, const RasterReader& raster,
   expect_same_map(old.metadata(), raster.frame());
   expect_water_level(old_path, old.metadata().water_level, options.lattice.water_level);
   const PackOptions stated = pack_options(old, options, bound_at);
+  LatticeOptions lines = stated.lattice;
+  lines.breaklines = options.lattice.breaklines;
+  expect_breaklines_possible(lines, raster.frame());
   const RasterScan scanned =
       scan(raster, stated.lattice.max_error, false, progress.part(0, kScanned));
-  PackPlan plan = plan_of(old, raster, stated, scanned);
+  PackPlan plan = plan_of(old, raster, stated, scanned, lines.breaklines);
   const KeptTiles kept(old, plan.tiled, progress.part(kScanned, kCompared));
   plan.tiled.kept = &kept;
   plan.options.simplify.progress = progress;

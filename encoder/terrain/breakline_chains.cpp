@@ -2,6 +2,7 @@
 // Chains of lattice positions for breaklines: vertices where lines cross, and where they bend.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "encoder/terrain/breaklines.hpp"
@@ -124,12 +125,13 @@ std::vector<LineVertex> fewer(const LatticeLine& line, LineRoom room,
 }
 
 // Adds what simplification leaves between the last vertex of a chain and the next one that stays.
-void add_simplified(const LatticeLine& line, LineRoom room, LineVertex next,
-                    std::vector<LineVertex>& chain) {
+void add_simplified(const LatticeLine& line, LineRoom room, const PositionTest& may_stand,
+                    LineVertex next, std::vector<LineVertex>& chain) {
   std::vector<LineVertex> all{chain.back()};
   const LatticeLine::Range range = line.between(chain.back().along, next.along);
   for (std::size_t i = range.first; i < range.last; ++i) {
     const LineVertex vertex{nearest_position(line.places()[i]), line.along(i)};
+    if (may_stand && !may_stand(vertex.place)) continue;
     if (vertex.place != all.back().place || line.has_heights()) all.push_back(vertex);
   }
   all.push_back(next);
@@ -140,25 +142,60 @@ void add_simplified(const LatticeLine& line, LineRoom room, LineVertex next,
   for (std::size_t i = 1; i < all.size(); ++i) chain.push_back(all[i]);
 }
 
-std::vector<double> without_repeats(std::vector<double> numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end(),
-                            [](double a, double b) { return b - a < kTouching; }),
-                numbers.end());
-  return numbers;
+// The position that stands for a place of a line: the nearest one, or else the nearest corner of
+// the lattice cell around the place that may. Nothing if none at the line may.
+std::optional<Point> standing_position(LinePlace place, const PositionTest& may_stand) {
+  const Point nearest = nearest_position(place);
+  if (!may_stand || may_stand(nearest)) return nearest;
+  std::optional<Point> best;
+  double least = kSimplified;
+  for (const double x : {std::floor(place.x), std::floor(place.x) + 1}) {
+    for (const double y : {std::floor(place.y), std::floor(place.y) + 1}) {
+      const Point corner = nearest_position({x, y, 0});
+      const double away = distance(place_of(corner), place);
+      if (away > least || !may_stand(corner)) continue;
+      best = corner;
+      least = away;
+    }
+  }
+  return best;
 }
 
-Chain chain_of(LatticeLine&& line, const std::vector<double>& crossings, LineRoom room) {
-  std::vector<double> stops = crossings;
-  stops.insert(stops.end(), {0, line.length()});
-  stops = without_repeats(std::move(stops));
+// Vertices of stops, by the coordinates of their places.
+using StopsByPlace = std::map<std::pair<double, double>, Point>;
+
+// The vertices that a chain must have, in order: stops, and where the line crosses others or ends.
+std::vector<LineVertex> required(const LatticeLine& line, const std::vector<double>& crossings,
+                                 const StopsByPlace& stops, const PositionTest& may_stand) {
+  std::vector<LineVertex> all;
+  for (std::size_t i = 0; i < line.places().size() && !stops.empty(); ++i) {
+    const auto stop = stops.find({line.places()[i].x, line.places()[i].y});
+    if (stop == stops.end() || (may_stand && !may_stand(stop->second))) continue;
+    all.push_back({stop->second, line.along(i)});
+  }
+  std::vector<double> others = crossings;
+  others.insert(others.end(), {0, line.length()});
+  for (const double along : others) {
+    const std::optional<Point> place = standing_position(line.at(along), may_stand);
+    if (place) all.push_back({*place, along});
+  }
+  // The vertex of a stop comes before others at the same place of the line.
+  std::stable_sort(all.begin(), all.end(),
+                   [](LineVertex a, LineVertex b) { return a.along < b.along; });
+  all.erase(std::unique(all.begin(), all.end(),
+                        [](LineVertex a, LineVertex b) { return b.along - a.along < kTouching; }),
+            all.end());
+  return all;
+}
+
+Chain chain_of(LatticeLine&& line, const std::vector<LineVertex>& required, LineRoom room,
+               const PositionTest& may_stand) {
   std::vector<LineVertex> wanted;
-  for (const double along : stops) {
-    const LineVertex next{nearest_position(line.at(along)), along};
+  for (const LineVertex& next : required) {
     if (wanted.empty()) {
       wanted.push_back(next);
     } else {
-      add_simplified(line, room, next, wanted);
+      add_simplified(line, room, may_stand, next, wanted);
     }
   }
   std::vector<LineVertex> vertices;
@@ -174,7 +211,8 @@ Chain chain_of(LatticeLine&& line, const std::vector<double>& crossings, LineRoo
 std::optional<std::size_t> worst_between(const LatticeLine& line, LineVertex a, LineVertex b,
                                          LineRoom room) {
   const auto place_of_vertex = [&](const LineVertex& v) {
-    return LinePlace{double{0} + v.place.x, double{0} + v.place.y, line.at(v.along).z};
+    const LinePlace place = place_of(v.place);
+    return LinePlace{place.x, place.y, line.at(v.along).z};
   };
   const LinePlace from = place_of_vertex(a), to = place_of_vertex(b);
   const LatticeLine::Range range = line.between(a.along, b.along);
@@ -198,14 +236,18 @@ std::optional<std::size_t> worst_between(const LatticeLine& line, LineVertex a, 
 }
 
 LineVertex chain_vertex(const LatticeLine& line, Point place, double from, double to) {
-  return {place, line.foot(place, std::min(from, to), std::max(from, to))};
+  return {place, line.foot(place_of(place), std::min(from, to), std::max(from, to))};
 }
 
-std::vector<Chain> chains_of(std::vector<LatticeLine> lines, LineRoom room) {
+std::vector<Chain> chains_of(std::vector<LatticeLine> lines, LineRoom room,
+                             const std::vector<LineStop>& stops, const PositionTest& may_stand) {
   const std::vector<std::vector<double>> crossings = Crossings(lines).found();
+  StopsByPlace by_place;
+  for (const LineStop& stop : stops) by_place[{stop.place.x, stop.place.y}] = stop.vertex;
   std::vector<Chain> chains;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    chains.push_back(chain_of(std::move(lines[i]), crossings[i], room));
+    const std::vector<LineVertex> vertices = required(lines[i], crossings[i], by_place, may_stand);
+    chains.push_back(chain_of(std::move(lines[i]), vertices, room, may_stand));
   }
   return chains;
 }

@@ -148,8 +148,7 @@ class Pinning {
     }
     if (sample != nullptr)
       heights += ", the terrain at " + height_text(sample->height / kPartsOfStep);
-    const LinePlace place{double{0} + first->place.x, double{0} + first->place.y, 0};
-    throw Error(parameter("breaklines") + ": at " + place_text(place, lattice_) +
+    throw Error(parameter("breaklines") + ": at " + place_text(place_of(first->place), lattice_) +
                 " no z step is within the bound of all heights: " + heights + "; use a larger " +
                 parameter("max_error") + ", a smaller " + parameter("xy_step") +
                 ", or leave out the heights of the lines");
@@ -169,20 +168,25 @@ LineRoom room_of(Decimal max_error, bool never_below, double z_step) {
   return never_below ? LineRoom{bound / 2, bound / 2} : LineRoom{0, bound};
 }
 
-void add_pins(const LatticeLine& line, const LineVertex& vertex, std::vector<Pin>& pins) {
+std::vector<double> heights_at(const LatticeLine& line, LinePlace vertex, double along) {
   constexpr double kNear = 1.5;  // steps along the line: places that move there are nearer
-  const auto add = [&](double along) {
-    const std::optional<double> height =
-        line.has_heights() ? std::optional<double>(line.at(along).z) : std::nullopt;
-    pins.push_back({vertex.place, height, line.number()});
-  };
-  add(vertex.along);
-  if (!line.has_heights()) return;
-  add(line.foot(vertex.place, std::max(vertex.along - kNear, 0.0),
-                std::min(vertex.along + kNear, line.length())));
-  const LatticeLine::Range near = line.between(vertex.along - kNear, vertex.along + kNear);
+  if (!line.has_heights()) return {};
+  const double low = std::max(along - kNear, 0.0), high = std::min(along + kNear, line.length());
+  std::vector<double> heights{line.at(along).z, line.at(line.foot(vertex, low, high)).z};
+  const LatticeLine::Range near = line.between(along - kNear, along + kNear);
   for (std::size_t i = near.first; i < near.last; ++i) {
-    if (nearest_position(line.places()[i]) == vertex.place) add(line.along(i));
+    const LinePlace place = line.places()[i];
+    const bool moves_there =
+        std::floor(place.x + 0.5) == vertex.x && std::floor(place.y + 0.5) == vertex.y;
+    if (moves_there) heights.push_back(place.z);
+  }
+  return heights;
+}
+
+void add_pins(const LatticeLine& line, const LineVertex& vertex, std::vector<Pin>& pins) {
+  if (!line.has_heights()) pins.push_back({vertex.place, std::nullopt, line.number()});
+  for (const double height : heights_at(line, place_of(vertex.place), vertex.along)) {
+    pins.push_back({vertex.place, height, line.number()});
   }
 }
 

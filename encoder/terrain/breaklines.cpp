@@ -151,7 +151,7 @@ class LineCutter {
 };
 
 void expect_one_height(LinePlace a, LinePlace b, const Placement& lattice) {
-  if (a.x != b.x || a.y != b.y || a.z == b.z) return;
+  if (a.z == b.z) return;
   throw Error("a line of the " + parameter("breaklines") + " has two heights at " +
               place_text(a, lattice) + "; give it one");
 }
@@ -180,8 +180,7 @@ LinePlace LatticeLine::at(double along) const {
   return place_between(places_[i], places_[i + 1], std::clamp(share, 0.0, 1.0));
 }
 
-double LatticeLine::foot(Point p, double from, double to) const {
-  const LinePlace wanted{double{0} + p.x, double{0} + p.y, 0};
+double LatticeLine::foot(LinePlace wanted, double from, double to) const {
   double best = from, nearest = distance(at(from), wanted);
   for (std::size_t i = segment_at(from); i + 1 < places_.size() && along_[i] <= to; ++i) {
     const double share = share_of(wanted, places_[i], places_[i + 1]);
@@ -243,18 +242,31 @@ LineGround line_ground_of(const Source& source, const Placement& lattice) {
   return {hull_of(places), std::move(voids), spacing(x_map), spacing(y_map)};
 }
 
+LinePath path_of(const RealLine& line, uint32_t number, const Placement& lattice) {
+  LinePath path{{}, !line.empty() && line.front().z.has_value(), number};
+  for (const RealPoint& p : line) {
+    const LinePlace place{coordinate_on(p.x, lattice.x), coordinate_on(p.y, lattice.y),
+                          path.has_heights && p.z ? coordinate_on(*p.z, lattice.z) : 0};
+    const bool is_same =
+        !path.places.empty() && path.places.back().x == place.x && path.places.back().y == place.y;
+    if (is_same) {
+      expect_one_height(path.places.back(), place, lattice);
+    } else {
+      path.places.push_back(place);
+    }
+  }
+  return path;
+}
+
+void add_parts(const LineGround& ground, const LinePath& path, std::vector<LatticeLine>& lines) {
+  LineCutter(ground, path.has_heights, path.number, lines).cut(path.places);
+}
+
 std::vector<LatticeLine> lines_over(const LineGround& ground, const std::vector<RealLine>& lines,
                                     const Placement& lattice) {
   std::vector<LatticeLine> all;
   for (std::size_t number = 0; number < lines.size(); ++number) {
-    const bool has_heights = !lines[number].empty() && lines[number].front().z.has_value();
-    std::vector<LinePlace> places;
-    for (const RealPoint& p : lines[number]) {
-      places.push_back({coordinate_on(p.x, lattice.x), coordinate_on(p.y, lattice.y),
-                        has_heights && p.z ? coordinate_on(*p.z, lattice.z) : 0});
-      if (places.size() > 1) expect_one_height(places[places.size() - 2], places.back(), lattice);
-    }
-    LineCutter(ground, has_heights, static_cast<uint32_t>(number), all).cut(places);
+    add_parts(ground, path_of(lines[number], static_cast<uint32_t>(number), lattice), all);
   }
   return all;
 }

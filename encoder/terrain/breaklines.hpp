@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,8 +45,8 @@ class LatticeLine {
   // The place up to which so much of the line lies.
   LinePlace at(double along) const;
 
-  // Where between two lengths the line is nearest to p.
-  double foot(Point p, double from, double to) const;
+  // Where between two lengths the line is nearest to a place.
+  double foot(LinePlace wanted, double from, double to) const;
 
   // The places strictly between two lengths: first .. last - 1.
   struct Range {
@@ -64,6 +65,10 @@ class LatticeLine {
 
 double distance(LinePlace a, LinePlace b);
 
+inline LinePlace place_of(Point p) {
+  return {double{0} + p.x, double{0} + p.y, 0};
+}
+
 // Where on the segment from a to b a place is nearest: 0 at a, 1 at b.
 double share_of(LinePlace p, LinePlace a, LinePlace b);
 
@@ -81,8 +86,20 @@ struct LineGround {
 LineGround line_ground_of(const Survey& survey, double x_spacing, double y_spacing);
 LineGround line_ground_of(const Source& source, const Placement& lattice);
 
-// Takes lines to a lattice, without the parts that lie elsewhere. Throws Error if a line has two
-// heights at one place.
+// A whole line on the lattice, over the terrain or not.
+struct LinePath {
+  std::vector<LinePlace> places;  // no two neighbours have the same x and y
+  bool has_heights;
+  uint32_t number;  // of the line in its file, from 0 on
+};
+
+// Throws Error if the line has two heights at one place.
+LinePath path_of(const RealLine& line, uint32_t number, const Placement& lattice);
+
+// Adds the parts of a line that count.
+void add_parts(const LineGround& ground, const LinePath& path, std::vector<LatticeLine>& lines);
+
+// Takes lines to a lattice, without the parts that lie elsewhere. Throws Error as path_of does.
 std::vector<LatticeLine> lines_over(const LineGround& ground, const std::vector<RealLine>& lines,
                                     const Placement& lattice);
 
@@ -113,8 +130,20 @@ std::optional<std::size_t> worst_between(const LatticeLine& line, LineVertex a, 
 // lengths.
 LineVertex chain_vertex(const LatticeLine& line, Point place, double from, double to);
 
-// Lines as chains, with a vertex where two cross, and as few others as are within the room.
-std::vector<Chain> chains_of(std::vector<LatticeLine> lines, LineRoom room);
+// Which lattice positions may be vertices of chains; empty: all.
+using PositionTest = std::function<bool(Point)>;
+
+// A place of a line at which its chain has this vertex.
+struct LineStop {
+  LinePlace place;
+  Point vertex;
+};
+
+// Lines as chains, with the vertices of stops, one where two lines cross, and as few others as are
+// within the room. Where a position may not be a vertex, another at the line stands for it, or
+// none.
+std::vector<Chain> chains_of(std::vector<LatticeLine> lines, LineRoom room,
+                             const std::vector<LineStop>& stops, const PositionTest& may_stand);
 
 // A sample that a line needs as a vertex: at its height, or at the surface's.
 struct Pin {
@@ -122,6 +151,10 @@ struct Pin {
   std::optional<double> height;  // of the line, in z steps
   uint32_t line;
 };
+
+// The heights of a line with heights at the places for which a vertex of its chain stands: at
+// `along`, at the place nearest to the vertex, and at those that moved there. Else none.
+std::vector<double> heights_at(const LatticeLine& line, LinePlace vertex, double along);
 
 // The pins of a vertex of a chain, and of the places of its line that moved to it.
 void add_pins(const LatticeLine& line, const LineVertex& vertex, std::vector<Pin>& pins);

@@ -337,12 +337,8 @@ void add_breaklines(const LatticeOptions& options, const Lattice& lattice, Laid&
   laid.line_room =
       room_of(*options.max_error, options.never_below, exact::step_of(laid.placement.z));
   laid.breaklines =
-      chains_of(lines_over(ground, options.breaklines, laid.placement), laid.line_room);
-  std::vector<Pin> pins;
-  for (const Chain& chain : laid.breaklines) {
-    for (const LineVertex& vertex : chain.vertices) add_pins(chain.line, vertex, pins);
-  }
-  pin(laid.survey, std::move(pins), laid.line_room, laid.placement);
+      chains_of(lines_over(ground, options.breaklines, laid.placement), laid.line_room, {}, {});
+  pin_chains(laid);
 }
 
 void refuse_unbounded(const OwnBounds& own) {
@@ -352,6 +348,25 @@ void refuse_unbounded(const OwnBounds& own) {
 }
 
 }  // namespace
+
+bool may_stand(const Laid& laid, Point place) {
+  if (!laid.is_shared || !laid.is_shared(place)) return true;
+  return std::binary_search(laid.survey.fixed.begin(), laid.survey.fixed.end(), place);
+}
+
+void add_pins(const Laid& laid, const LatticeLine& line, const LineVertex& vertex,
+              std::vector<Pin>& pins) {
+  if (laid.is_shared && laid.is_shared(vertex.place)) return;
+  add_pins(line, vertex, pins);
+}
+
+void pin_chains(Laid& laid) {
+  std::vector<Pin> pins;
+  for (const Chain& chain : laid.breaklines) {
+    for (const LineVertex& vertex : chain.vertices) add_pins(laid, chain.line, vertex, pins);
+  }
+  pin(laid.survey, std::move(pins), laid.line_room, laid.placement);
+}
 
 Laid lay_out(const Source& source, const LatticeOptions& options) {
   return lay_out(source, choose_lattice(source, options), options);

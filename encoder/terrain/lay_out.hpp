@@ -22,7 +22,18 @@ struct Laid {
   uint64_t merged = 0;            // points that came to a place already taken
   std::vector<Chain> breaklines;  // whose vertices are fixed samples of the survey
   LineRoom line_room;
+  PositionTest is_shared;  // positions at which only vertices that are fixed already may be
 };
+
+// Whether a vertex of a chain may be at a position.
+bool may_stand(const Laid& laid, Point place);
+
+// Adds the pins of a vertex of a chain, but for one that is shared, which has its height.
+void add_pins(const Laid& laid, const LatticeLine& line, const LineVertex& vertex,
+              std::vector<Pin>& pins);
+
+// Makes the vertices of all chains fixed samples. Throws Error as pin does.
+void pin_chains(Laid& laid);
 
 // A point goes to the nearest place, halves up. Points that share a place become one sample: with
 // the middle of their lowest and highest height, or as the options' rule says. A void post that

@@ -165,7 +165,7 @@ class LineSearch {
   void add_feet(uint32_t v, const std::set<std::size_t>& segments) {
     struct Foot {
       std::size_t segment;
-      double away, along;
+      double share, away, along;
     };
     const std::vector<LinePlace>& places = line_.places();
     const LinePlace vertex = edges_.vertex(v);
@@ -173,7 +173,7 @@ class LineSearch {
     for (const std::size_t i : segments) {
       const double share = terrain::share_of(vertex, places[i], places[i + 1]);
       const double along = line_.along(i) + (line_.along(i + 1) - line_.along(i)) * share;
-      feet.push_back({i, terrain::distance(line_.at(along), vertex), along});
+      feet.push_back({i, share, terrain::distance(line_.at(along), vertex), along});
     }
     const auto is_nearer = [&](std::size_t other, std::size_t segment, double away) {
       return other < feet.size() && feet[other].segment == segment && feet[other].away < away;
@@ -181,8 +181,9 @@ class LineSearch {
     for (std::size_t i = 0; i < feet.size(); ++i) {
       const Foot& foot = feet[i];
       if (foot.away > terrain::kMostShift) continue;
-      if (i != 0 && is_nearer(i - 1, foot.segment - 1, foot.away)) continue;
-      if (is_nearer(i + 1, foot.segment + 1, foot.away)) continue;
+      // At the end of a segment the next one may go on towards the vertex.
+      if (foot.share == 0 && i != 0 && is_nearer(i - 1, foot.segment - 1, foot.away)) continue;
+      if (foot.share == 1 && is_nearer(i + 1, foot.segment + 1, foot.away)) continue;
       by_vertex_[v].push_back(nodes_.size());
       nodes_.push_back({v, foot.along});
       parent_.push_back(kUnreached);
@@ -281,16 +282,22 @@ FoundBreaklines find_breaklines(const microtin_mesh* mesh, const std::vector<Lat
                                 const std::optional<LineRoom>& room, const Placement& lattice) {
   FoundBreaklines found;
   const NearbyEdges edges(mesh, lines);
-  std::set<uint32_t> numbers;
   for (const LatticeLine& line : lines) {
-    numbers.insert(line.number());
+    found.lines.insert(line.number());
     LineSearch search(edges, line, room);
     if (search.find(found) || found.missing) continue;
     found.missing = "line " + std::to_string(line.number() + 1) + " has no edges from " +
                     terrain::place_text(search.farthest(), lattice) + " on";
   }
-  found.lines = numbers.size();
   return found;
+}
+
+void add(const FoundBreaklines& part, FoundBreaklines& all) {
+  all.lines.insert(part.lines.begin(), part.lines.end());
+  all.pieces += part.pieces;
+  all.max_shift = std::max(all.max_shift, part.max_shift);
+  all.max_error = std::max(all.max_error, part.max_error);
+  if (!all.missing) all.missing = part.missing;
 }
 
 }  // namespace microtin::verifying

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,13 +22,16 @@ struct FoundChain {
 };
 
 struct FoundBreaklines {
-  uint64_t lines = 0;    // of the file, at least partly over the terrain
-  uint64_t pieces = 0;   // edges along them
-  double max_shift = 0;  // between a line and its edges, in lattice steps
-  double max_error = 0;  // between their heights, in z steps; of lines that have heights
+  std::set<uint32_t> lines;  // of the file, at least partly over the terrain
+  uint64_t pieces = 0;       // edges along them
+  double max_shift = 0;      // between a line and its edges, in lattice steps
+  double max_error = 0;      // between their heights, in z steps; of lines that have heights
   std::vector<FoundChain> chains;
   std::optional<std::string> missing;  // which line has no such chain, and where
 };
+
+// What was found in all parts of a terrain.
+void add(const FoundBreaklines& part, FoundBreaklines& all);
 
 // Looks along each line for edges that follow it from its beginning to its end, at most kMostShift
 // lattice steps away, and at heights within the room. Without room heights are only measured.

@@ -160,7 +160,7 @@ std::vector<Row> rows_of_files() {
       {"route_width", kAll, route, two},
       {"route_edge_error", kAll,
        route + setting("--route-edge-error", &W::route_edge_error, &C::route_edge_error, "7"), two},
-      {"breaklines", kStream | kCloud,
+      {"breaklines", kStream | kPack | kCloud,
        setting("--breaklines", &W::breaklines, &C::breaklines, line), two},
       {"obstacles", kStream | kPack, setting("--obstacles", &W::obstacles, &C::obstacles, tower),
        bound("9")},

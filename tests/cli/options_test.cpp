@@ -156,6 +156,7 @@ const std::vector<OptionRow> kOptionRows = {
     {"update", "--best", "m.mtp peak.asc --tile-vertices 300 -o o.mtp", ""},
     {"update", "--error-map", "bounded.mtp t.asc -o o.mtp", "bounds.geojson"},
     {"update", "--bound-at", "m.mtp peak.asc --tile-vertices 300 -o o.mtp", "everywhere"},
+    {"update", "--breaklines", "m.mtp t.asc --tile-vertices 300 -o o.mtp", "route.geojson"},
     {"update", "--obstacles", "tower.mtp t.asc --tile-vertices 300 -o o.mtp", "tower.geojson"},
     {"update", "--fill-voids", "s.mtp t.asc --tile-vertices 300 -o o.mtp", "1"},
     {"update", "--date", "s.mtp t.asc -o o.mtp", "2026"},
@@ -365,8 +366,7 @@ TEST_CASE("options: none is without a row") {
     const Names options = without(options_of(session, command), {"--allow-vrt", "--band"});
     CHECK(text_of(options) == text_of(known));
   }
-  const Names encode =
-      without(options_of(session, "encode"), {"--output", "--resume", "--shard", "--breaklines"});
+  const Names encode = without(options_of(session, "encode"), {"--output", "--resume", "--shard"});
   CHECK(text_of(options_of(session, "plan")) == text_of(united(encode, {"--shards"})));
   // Each of update is also one of encode, and read by the same code.
   CHECK(text_of(without(options_of(session, "update"), options_of(session, "encode"))) == "");
@@ -385,6 +385,7 @@ const std::vector<std::string> kOfShards = {
     "--bound-at lattice",
     "--bound-at everywhere",
     "--obstacles tower.geojson",
+    "--breaklines route.geojson",
     "--fast",
     "--duplicates lowest",
     "--best",
@@ -418,7 +419,7 @@ const std::set<std::string> kWithoutEffect = {"", "--bound-at lattice", "--dupli
 // With which no shard of posts is made, or which say which shard.
 const Names kNotOfShards = {"--digest",  "--phases",     "--max-vertices", "--max-bytes",
                             "--xy-step", "--device-ram", "--output",       "--shard",
-                            "--classes", "--gridded",    "--for",          "--breaklines"};
+                            "--classes", "--gridded",    "--for"};
 
 const std::vector<std::string> kCommon = {"--max-error 12", "--z-step 0.5", "--tile-vertices 120",
                                           "--tile-size 10"};

@@ -201,6 +201,48 @@ std::vector<Line> bent() {
   return {wave, ring};
 }
 
+// Encodes a pack; edges follow each line through its tiles then, and shards give the same bytes.
+void expect_edges_of_pack(const Session& session, const std::vector<Line>& lines, int tile_size,
+                          const std::string& options, double room = 0) {
+  write_lines(session, lines);
+  const std::string same = "t.asc --units metre --breaklines lines.csv --max-error " + options;
+  const std::string whole = same + " --tile-size " + std::to_string(tile_size);
+  expect_run(session, "encode " + whole + " -o t.mtp");
+  expect_run(session, "verify t.mtp t.asc --units metre --breaklines lines.csv");
+  const library::Mesh mesh = mesh_of(session, "t.mtp");
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    CHECK_MESSAGE(follows(mesh, lines[i], 10, room), ("line " + std::to_string(i) + options));
+  }
+  const std::string plan = session.run("plan --shards 2 " + whole).out;
+  std::string files;
+  std::size_t begin = 0;
+  for (std::size_t end = plan.find('\n'); end != std::string::npos; end = plan.find('\n', begin)) {
+    const std::string file = std::to_string(begin) + ".shard";
+    expect_run(session,
+               join({"encode ", same, " ", plan.substr(begin, end - begin), " -o ", file}));
+    files += file + ' ';
+    begin = end + 1;
+  }
+  expect_run(session, join({"merge ", files, "-o m.mtp"}));
+  CHECK(session.read("m.mtp") == session.read("t.mtp"));
+}
+
+// Lines on and near the borders of tiles of 10 steps: half a step away, across at small angles,
+// bending there, through corners and near these.
+std::vector<Line> beside_borders() {
+  return {{{10, 2, -1}, {10, 44, -1}},
+          {{2, 9.5, -1}, {58, 9.5, -1}},
+          {{2, 30.5, -1}, {58, 30.5, -1}},
+          {{29.7, 1, -1}, {30.4, 45, -1}},
+          {{1, 20.3, -1}, {59, 19.6, -1}},
+          {{40.2, 3, -1}, {39.9, 22, -1}, {40.1, 41, -1}},
+          {{13, 33, -1}, {26, 46, -1}},
+          {{42, 12.2, -1}, {58, 28.2, -1}},
+          {{50, 2, -1}, {50.4, 10, -1}, {49.8, 15, -1}, {55, 18, -1}},
+          {{20.3, 20.2, -1}, {22, 25, -1}},
+          {{44, 40.1, -1}, {51.2, 40.2, -1}, {44, 40.4, -1}}};
+}
+
 }  // namespace
 
 TEST_CASE("breaklines: fans, crossings, rows, diagonals and curves are edges at every step") {
@@ -212,6 +254,52 @@ TEST_CASE("breaklines: fans, crossings, rows, diagonals and curves are edges at 
       expect_edges(session, placed(lines, cell), cell * step, "--max-error 12" + xy);
     }
   }
+}
+
+TEST_CASE("breaklines: packs have them across and along the borders of their tiles") {
+  const Session session;
+  write_terrain(session, 10);
+  for (const std::vector<Line>& lines : {fan(), straight(), bent(), beside_borders()}) {
+    expect_edges_of_pack(session, placed(lines, 10), 10, "12");
+    expect_edges_of_pack(session, placed(lines, 10), 7, "30");
+    expect_edges_of_pack(session, placed(lines, 10), 23, "4 --fast");
+    expect_edges_of_pack(session, placed(lines, 10), 10, "12 --never-below");
+  }
+}
+
+TEST_CASE("breaklines: packs keep the heights of lines along borders, too") {
+  const Session session;
+  write_terrain(session, 10);
+  std::vector<Line> lines = beside_borders();
+  for (Line& line : lines) {
+    Line dense;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      for (int k = 0; k < 40; ++k) dense.push_back(between(line[i], line[i + 1], k / 40.0));
+    }
+    dense.push_back(line.back());
+    for (Place& p : dense) p[2] = ground_at(p[0], p[1]) - 5.5 + std::sin(p[0] + p[1]);
+    line = dense;
+  }
+  expect_edges_of_pack(session, placed(lines, 10), 10, "60", 60);
+  expect_edges_of_pack(session, placed(lines, 10), 9, "90 --never-below", 90);
+}
+
+TEST_CASE("breaklines: a pack is brought up to date with them") {
+  const Session session;
+  write_terrain(session, 10);
+  write_lines(session, placed(beside_borders(), 10));
+  const std::string options = "t.asc --units metre --breaklines lines.csv -o ";
+  expect_run(session, join({"encode --max-error 12 --tile-size 10 ", options, "t.mtp"}));
+  const std::string kept = session.run(join({"update t.mtp ", options, "u.mtp"})).out;
+  CHECK_MESSAGE(contains(kept, "kept: 30 of 30 tiles"), kept);
+  CHECK(session.read("u.mtp") == session.read("t.mtp"));
+  expect_run(session, "encode t.asc --units metre --max-error 12 --tile-size 10 -o p.mtp");
+  const std::string added =
+      session.run(join({"update p.mtp --tile-vertices 400 ", options, "u.mtp"})).out;
+  CHECK_MESSAGE(!contains(added, "kept: 30"), added);
+  expect_run(session, "verify u.mtp t.asc --units metre --breaklines lines.csv");
+  const library::Mesh mesh = mesh_of(session, "u.mtp");
+  for (const Line& line : placed(beside_borders(), 10)) CHECK(follows(mesh, line, 10, 0));
 }
 
 TEST_CASE("breaklines: every way to search keeps them") {
@@ -374,9 +462,14 @@ TEST_CASE("breaklines: what cannot be kept is refused") {
   };
   const std::string line = "1050 2050\n1500 2300\n";
   CHECK(contains(refusal(line, "-o o.mtin"), "--breaklines needs a bound"));
-  CHECK(contains(refusal(line, "--max-error 9 -o o.mtp"), "--breaklines is for streams"));
-  CHECK(contains(refusal(line, "--max-error 9 --bound-at everywhere -o o.mtin"),
-                 "do not go together"));
+  CHECK(contains(refusal(line, "-o o.mtp"), "--breaklines needs a bound"));
+  for (const char* output : {"o.mtin", "o.mtp"}) {
+    CHECK(contains(refusal(line, join({"--max-error 9 --bound-at everywhere -o ", output})),
+                   "do not go together"));
+  }
+  session.write("p.xyz", "0 0 1\n9 0 2\n0 9 3\n9 9 4\n");
+  CHECK(contains(session.failure("encode p.xyz --max-error 1 --breaklines l.csv -o o.mtp"),
+                 "make a stream"));
   CHECK(contains(refusal("", "--max-error 9 -o o.mtin"), "l.csv: has no line"));
   CHECK(contains(refusal("1 2\n", "--max-error 9 -o o.mtin"), "a single position"));
   CHECK(contains(refusal("1 2\n3 x\n", "--max-error 9 -o o.mtin"), "l.csv:2: "));

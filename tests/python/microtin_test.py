@@ -247,8 +247,12 @@ class Options(unittest.TestCase):
             with self.assertRaisesRegex(microtin.Error, "obstacles needs max_error"):
                 microtin.encode(heights, obstacles=tower)
             path = os.path.join(folder, "a.mtp")
-            with self.assertRaisesRegex(microtin.Error, "breaklines is an option of streams"):
-                microtin.encode_pack(heights, path, 2, breaklines=line)
+            microtin.encode_pack(heights, path, 2, tile_size=16)
+            with open(path, "rb") as file:
+                plain = file.read()
+            microtin.encode_pack(heights, path, 2, tile_size=16, breaklines=line)
+            with open(path, "rb") as file:
+                self.assertNotEqual(file.read(), plain)
             microtin.encode_pack(heights, path, 2, obstacles=tower)
             self.assertGreaterEqual(microtin.decode(path).height_at([10], [10])[0], heights[-11, 10] + 50)
 

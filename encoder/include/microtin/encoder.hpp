@@ -174,7 +174,8 @@ struct Options {
    * route_width metres, half on each side. What lies outside of both has no heights. With
    * route_edge_error the bound grows from max_error at a route to that at the edges. */
   std::string area, route, route_width, route_edge_error;
-  /* Stream: a file of lines along which the surface has edges: GeoJSON, or text. Needs a bound. */
+  /* A file of lines along which the surface has edges: GeoJSON, or text. Needs a bound; not for
+   * packs of points. */
   std::string breaklines;
   /* Raster: a GeoJSON file of what stands on the terrain: points, lines and polygons
    * with `top`, or `height` above the ground, and `radius`. The surface is below none of it, and

@@ -216,7 +216,8 @@ def encode(
     Paths of GeoJSON files, in the system of the heights: area (polygons; other heights are void), route with
     route_width=METRES (lines; heights far from them are void) and maybe route_edge_error (the bound at the edges, to
     which it grows from max_error), obstacles (with max_error: what stands on the terrain, with `top` or `height` and
-    `radius`; the surface is below none of it), and of streams with max_error: breaklines (lines that become edges).
+    `radius`; the surface is below none of it), and with max_error breaklines (lines that become edges; not in packs of
+    points).
 
     Without a bound and a limit every height is a vertex. Takes some 20 us a height, on all processors. Raises Error, also if
     an array is not two-dimensional or a height out of range.
