@@ -39,6 +39,7 @@ PACK_PROFILE = ["pack_profile_next"]
 GRADIENT = ["mesh_gradient_at"]
 PACK_GRADIENT = ["pack_gradient_at"]
 PLACES = ["mesh_heights_at", "mesh_grid_extremes"]
+EDGE_MARKS = ["edge_marks_init", "edge_marks_feed", "edge_marks_finish", "edge_marks_count", "edge_marks_class"]
 COMPACT_PACK_PROFILE = ["compact_pack_profile_next"]
 COMPACT_PACK = [{"pack_init": "compact_pack_init", "pack_load": "compact_pack_load"}.get(e, e) for e in PACK]
 COMPACT_PACK_QUERIES = ["compact_" + e if e != "pack_axis_to_lattice" else e for e in PACK_QUERIES]
@@ -64,6 +65,7 @@ USES = {
     "gradient": DECODING + GRADIENT,
     "pack_gradient": PACK + PACK_GRADIENT,
     "places": DECODING + PLACES,
+    "edge_marks": DECODING + EDGE_MARKS,
 }
 # What is measured of the decoder in one source, by each compiler.
 ONE_SOURCE_USES = {
@@ -82,7 +84,7 @@ LOADING = r"_(load|load_card|check)$"  # functions of adapters that call the fir
 MOST_OF_CLANG = 1.2  # times gcc's bytes
 MOST_OF_ONE_SOURCE = 1.04  # times the instructions of separate sources
 WIDTH_IN_NAME = ["read_stream_info", "mesh_init", "decoder_init", "buckets_init", "compactor_init", "pack_init",
-                 "compact_pack_init"]
+                 "compact_pack_init", "edge_marks_init"]
 
 
 # --- Measuring ------------------------------------------------------------------------------------
@@ -197,7 +199,7 @@ def measure_library(options, library):
         image = str(options.build / "linked")
         all_packs = PACK + PACK_QUERIES + COMPACT_PACK + COMPACT_PACK_QUERIES
         others = NOTES + SAFE_HEIGHTS + SEGMENTS + PACK_CHECK + PACK_BOUNDS + REQUESTS + CLEARANCE + PROFILE + PACK_PROFILE + COMPACT_PACK_PROFILE
-        others += GRADIENT + PACK_GRADIENT + PLACES
+        others += GRADIENT + PACK_GRADIENT + PLACES + EDGE_MARKS
         link(options, library, DECODING + QUERIES + BUCKETS + COMPACT + others + all_packs, image)
         calls = stack_of(options, options.objects[library], image)
         own = {
@@ -207,7 +209,7 @@ def measure_library(options, library):
             "pack_bounds": PACK_BOUNDS, "requests": REQUESTS,
             "clearance": CLEARANCE, "profile": PROFILE, "pack_profile": PACK_PROFILE,
             "compact_pack_profile": COMPACT_PACK_PROFILE, "gradient": GRADIENT, "pack_gradient": PACK_GRADIENT,
-            "places": PLACES,
+            "places": PLACES, "edge_marks": EDGE_MARKS,
         }  # fmt: skip
         for use, entries in own.items():
             result["stack_" + use] = depth_of(options, calls, entries)
@@ -361,6 +363,7 @@ USE_TITLES = {
     "gradient": "decoding, gradients",
     "pack_gradient": "packs, gradients",
     "places": "decoding, many positions",
+    "edge_marks": "decoding, marks of edges",
 }
 STACK_TITLES = {
     "decoding": "decoding",
@@ -381,6 +384,7 @@ STACK_TITLES = {
     "gradient": "a gradient",
     "pack_gradient": "a gradient in a pack",
     "places": "many positions",
+    "edge_marks": "marks of edges",
 }
 
 
