@@ -11,6 +11,7 @@ faults   the text that a planted fault replaces stands once in its source, and i
 columns  documents have lines of at most 122 columns, tables and what links lead to aside
 widths   no struct of a C header has an enumeration, whose width flags change, and no pointer leads to one
 options  below the command line no text writes an option, which each user of the library spells in its own way
+meanings names of unnamed namespaces have one meaning in a folder, whose sources may be compiled as one
 locale   the encoder's library knows no decimal comma, whatever the program that uses it has chosen
 parts    each program of .ci/parts runs in a workflow of .github, and workflows run no other
 changelog the section of a version has entries of one line under Added, Changed, Fixed and Removed
@@ -196,6 +197,41 @@ def widths(folder):
     return found
 
 
+DECLARED = re.compile(
+    r"(?:struct|class|enum class|enum|union)\s+(\w+)[^;()]*\{|(?:constexpr|const)\s[^=({;]*?\b(k[A-Z]\w*)\b\s*(?:=|\{|\[)"
+)
+BLANKED = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', re.S)
+
+
+def unnamed(path):
+    """The types and constants that a source declares in unnamed namespaces, with the namespaces around them."""
+    text, scopes, start, found = BLANKED.sub("", path.read_text()), [], 0, set()
+    for brace in re.finditer(r"[{};]", text):
+        part, start = text[start : brace.end()], brace.end()
+        if "" in scopes and None not in scopes:
+            found |= {(*scopes, one or other) for one, other in DECLARED.findall(part)}
+        if brace.group() == "{":
+            opened = re.search(r"namespace\s*([\w:]*)\s*\{$", part)
+            scopes.append(opened.group(1) if opened else None)
+        elif brace.group() == "}" and scopes:
+            scopes.pop()
+    return found
+
+
+def meanings(folder):
+    """Sources of benchmarks and of images for devices are compiled one by one."""
+    found, first = [], {}
+    for top in ("encoder", "tests"):
+        for path in files(folder / top) if (folder / top).exists() else []:
+            if path.suffix != ".cpp" or {"bench", "firmware", "paper", "device"} & set(path.parts):
+                continue
+            for name in sorted(unnamed(path)):
+                other = first.setdefault((path.parent.name, *name), path)
+                if other != path:
+                    found.append(f"{path.relative_to(folder)} declares {name[-1]}, as {other.relative_to(folder)} does")
+    return found
+
+
 def locale(folder):
     """The commands, and the pictures that they draw, run in the C locale."""
     return [
@@ -332,7 +368,7 @@ def parts(folder):
 
 def main():
     folder = Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT
-    checks = {check.__name__: check for check in (length, links, pointers, comments, columns, merges, licence, faults, widths, options, locale, parts, changelog, prose, messages)}
+    checks = {check.__name__: check for check in (length, links, pointers, comments, columns, merges, licence, faults, widths, options, meanings, locale, parts, changelog, prose, messages)}
     found = checks[sys.argv[1]](folder)
     for fault in found:
         print("rejected:", fault)

@@ -18,12 +18,12 @@ struct Destroy {
   void operator()(void* system) const { OSRDestroySpatialReference(system); }
 };
 
-using System = std::unique_ptr<void, Destroy>;
+using OwnedSystem = std::unique_ptr<void, Destroy>;
 
 // Null if there is no such code.
-System system_for(uint32_t code) {
+OwnedSystem system_for(uint32_t code) {
   CPLPushErrorHandler(CPLQuietErrorHandler);
-  System system(OSRNewSpatialReference(nullptr));
+  OwnedSystem system(OSRNewSpatialReference(nullptr));
   const bool found = OSRImportFromEPSG(system.get(), static_cast<int>(code)) == OGRERR_NONE;
   CPLPopErrorHandler();
   if (!found) system.reset();
@@ -51,7 +51,7 @@ bool grows_downwards(OGRSpatialReferenceH system) {
 }  // namespace
 
 std::optional<CodedSystem> system_by_proj(uint32_t code) {
-  const System system = system_for(code);
+  const OwnedSystem system = system_for(code);
   if (!system) throw Error("EPSG has no coordinate reference system " + std::to_string(code));
   const bool is_vertical = OSRIsVertical(system.get()) != 0 && OSRIsCompound(system.get()) == 0;
   const bool is_horizontal =
@@ -66,7 +66,7 @@ std::optional<CodedSystem> system_by_proj(uint32_t code) {
 }
 
 std::string wkt_by_proj(uint32_t code) {
-  const System system = system_for(code);
+  const OwnedSystem system = system_for(code);
   if (!system) return "";
   const char* const options[] = {"FORMAT=WKT1_ESRI", nullptr};
   char* text = nullptr;

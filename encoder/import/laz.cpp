@@ -13,7 +13,7 @@
 namespace microtin::importing {
 namespace {
 
-constexpr const char* kRemedy =
+constexpr const char* kUnpack =
     "decompress it first, with laszip, las2las or \"pdal translate IN.laz OUT.las\"";
 
 enum LazItem : uint16_t {
@@ -79,7 +79,7 @@ class LazSettings {
   LazSettings(const std::string& name, const ByteReader& file, const LazHeader& header)
       : file_(file), header_(header), record_(name, header.record) {
     if (header.record.empty()) {
-      file.fail(std::string("is compressed (LAZ) without a record of LASzip: ") + kRemedy);
+      file.fail(std::string("is compressed (LAZ) without a record of LASzip: ") + kUnpack);
     }
     const bool is_layered = header.point_format >= 6;
     const uint16_t compressor = is_layered ? 3 : 2;
@@ -110,7 +110,7 @@ class LazSettings {
 
   [[noreturn]] void refuse(const std::string& what) const {
     file_.fail("is compressed (LAZ) in a way that is not read, " + what +
-               ", with points of format " + std::to_string(header_.point_format) + ": " + kRemedy);
+               ", with points of format " + std::to_string(header_.point_format) + ": " + kUnpack);
   }
 
   void check_parts() {

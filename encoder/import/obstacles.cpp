@@ -95,21 +95,21 @@ class TouchedCells {
 };
 
 // Cells that an obstacle touches, and whether its top is the same above all of them.
-struct Part {
+struct Footprint {
   std::vector<std::size_t> cells;
   bool is_level;
 };
 
 // A point's parts are level; what is high above the ground along a line or in a polygon follows the
 // ground.
-std::vector<Part> parts_of(const Feature& obstacle, const Raster& raster) {
+std::vector<Footprint> parts_of(const Feature& obstacle, const Raster& raster) {
   const double radius = obstacle.radius ? exact::real(*obstacle.radius) : 0;
   const auto around = [&](const RealLine& line, TouchedCells& cells) {
     for (const RealRings& part : corridor_of(line, radius, raster.reference.horizontal_unit)) {
       cells.add(part);
     }
   };
-  std::vector<Part> parts;
+  std::vector<Footprint> parts;
   for (const RealPoint& point : obstacle.points) {
     TouchedCells cells(raster);
     around({point}, cells);
@@ -145,7 +145,7 @@ class Raising {
   // Whether a post of the obstacle's cells has a height.
   bool add(const Feature& obstacle) {
     bool is_there = false;
-    for (const Part& part : parts_of(obstacle, frame_)) {
+    for (const Footprint& part : parts_of(obstacle, frame_)) {
       is_there =
           (part.is_level ? raise_alike(obstacle, part.cells) : raise_each(obstacle, part.cells)) ||
           is_there;

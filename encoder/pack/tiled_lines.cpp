@@ -14,7 +14,7 @@
 namespace microtin::pack {
 namespace {
 
-constexpr double kReach = 0.5;  // steps: places nearer to a border than that move to it
+constexpr double kHalfStep = 0.5;  // steps: places nearer to a border than that move to it
 
 // The straight line on which borders lie, across the whole pack.
 struct BorderAxis {
@@ -74,7 +74,7 @@ class StretchSearch {
   void cross(std::size_t i) {
     const LinePlace a = line_.places()[i], b = line_.places()[i + 1];
     const double from = axis_.away(a), to = axis_.away(b);
-    double levels[] = {-kReach, 0, kReach};
+    double levels[] = {-kHalfStep, 0, kHalfStep};
     if (from > to) std::reverse(std::begin(levels), std::end(levels));
     for (const double level : levels) {
       if (level <= std::min(from, to) || level >= std::max(from, to)) continue;
@@ -86,7 +86,7 @@ class StretchSearch {
   }
 
   void take(const Knot& knot) {
-    if (std::abs(knot.away) <= kReach) {
+    if (std::abs(knot.away) <= kHalfStep) {
       knots_.push_back(knot);
     } else {
       end();
@@ -116,8 +116,8 @@ class StretchSearch {
       return std::all_of(knots_.begin(), knots_.end(),
                          [&](const Knot& one) { return one.away == level; });
     };
-    if (stays(kReach)) return false;
-    return !stays(-kReach) || knot.is_vertex;
+    if (stays(kHalfStep)) return false;
+    return !stays(-kHalfStep) || knot.is_vertex;
   }
 
   bool goes_through() const {
@@ -126,7 +126,7 @@ class StretchSearch {
     const auto moves = [&](const Knot& knot) {
       return std::abs(axis_.along(knot.place) - axis_.along(knots_[1].place));
     };
-    return moves(knots_[0]) <= kReach && moves(knots_[2]) <= kReach;
+    return moves(knots_[0]) <= kHalfStep && moves(knots_[2]) <= kHalfStep;
   }
 
   const LatticeLine& line_;
