@@ -240,7 +240,25 @@ std::vector<Line> beside_borders() {
           {{42, 12.2, -1}, {58, 28.2, -1}},
           {{50, 2, -1}, {50.4, 10, -1}, {49.8, 15, -1}, {55, 18, -1}},
           {{20.3, 20.2, -1}, {22, 25, -1}},
-          {{44, 40.1, -1}, {51.2, 40.2, -1}, {44, 40.4, -1}}};
+          {{44, 40.1, -1}, {51.2, 40.2, -1}, {44, 40.4, -1}},
+          {{21.4, 2, -1}, {18.8, 28, -1}},
+          {{5, 15.3, -1}, {17, 24.9, -1}},
+          {{3, 38.2, -1}, {14, 41.6, -1}},
+          {{52.4, 32, -1}, {56, 42.9, -1}, {47.9, 43.2, -1}}};
+}
+
+// Lines at some height above the ground, with a place for each fortieth of a segment.
+std::vector<Line> with_heights(std::vector<Line> lines, double above) {
+  for (Line& line : lines) {
+    Line dense;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      for (int k = 0; k < 40; ++k) dense.push_back(between(line[i], line[i + 1], k / 40.0));
+    }
+    dense.push_back(line.back());
+    for (Place& p : dense) p[2] = ground_at(p[0], p[1]) + above + std::sin(p[0] + p[1]);
+    line = dense;
+  }
+  return lines;
 }
 
 }  // namespace
@@ -270,18 +288,37 @@ TEST_CASE("breaklines: packs have them across and along the borders of their til
 TEST_CASE("breaklines: packs keep the heights of lines along borders, too") {
   const Session session;
   write_terrain(session, 10);
-  std::vector<Line> lines = beside_borders();
-  for (Line& line : lines) {
-    Line dense;
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-      for (int k = 0; k < 40; ++k) dense.push_back(between(line[i], line[i + 1], k / 40.0));
+  const auto lines = [](double above) { return placed(with_heights(beside_borders(), above), 10); };
+  expect_edges_of_pack(session, lines(-5.5), 10, "60", 60);
+  expect_edges_of_pack(session, lines(-40), 10, "60", 60);
+  expect_edges_of_pack(session, lines(50), 7, "90", 90);
+  expect_edges_of_pack(session, lines(-5.5), 9, "90 --never-below", 90);
+}
+
+TEST_CASE("breaklines: between its vertices a border keeps the heights of a line, too") {
+  const Session session;
+  std::string text = "ncols 61\nnrows 47\nxllcenter 1000\nyllcenter 2000\ncellsize 10\n";
+  for (int row = kRows - 1; row >= 0; --row) {
+    for (int column = 0; column < kColumns; ++column) {
+      const bool is_hill = column > 7 && column < 13 && row > 20 && row < 26;
+      text += is_hill ? "175 " : "100 ";
     }
-    dense.push_back(line.back());
-    for (Place& p : dense) p[2] = ground_at(p[0], p[1]) - 5.5 + std::sin(p[0] + p[1]);
-    line = dense;
   }
-  expect_edges_of_pack(session, placed(lines, 10), 10, "60", 60);
-  expect_edges_of_pack(session, placed(lines, 10), 9, "90 --never-below", 90);
+  session.write("t.asc", text);
+  // The hill's lowest surface within the bound is a little below the line's highest.
+  expect_edges_of_pack(session, placed({{{10, 2, 60}, {10, 44, 60}}}, 10), 10, "60", 60);
+}
+
+TEST_CASE("breaklines: shards of other lines do not join") {
+  const Session session;
+  write_terrain(session, 10);
+  for (const int shard : {0, 1}) {
+    write_lines(session, placed({{{5, 12, -1}, {50, 30.0 + shard, -1}}}, 10));
+    expect_run(session, join({"encode t.asc --units metre --max-error 12 --breaklines lines.csv ",
+                              "--tile-size 30 --shard ", shard == 0 ? "0:1" : "2:3", " -o ",
+                              std::to_string(shard), ".shard"}));
+  }
+  CHECK(contains(session.failure("merge 0.shard 1.shard -o m.mtp"), "made with other options"));
 }
 
 TEST_CASE("breaklines: a pack is brought up to date with them") {
