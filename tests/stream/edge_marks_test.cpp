@@ -118,6 +118,15 @@ std::vector<uint32_t> random_path(const microtin_mesh* mesh, uint32_t edges, Ran
   return path;
 }
 
+// Vertices on a circle around one.
+Tin wheel() {
+  Random random(9);
+  Tin tin;
+  for (const Point p : circle_points(1105 * 1105, random)) tin.vertices.push_back({p.x, p.y, 0});
+  tin.vertices.push_back({32768, 32768, 9});
+  return tin;
+}
+
 Bytes with_lines(const Bytes& stream, const std::vector<MarkedLine>& lines) {
   Bytes all = stream;
   append_edge_marks(DecodedTerrain(stream).mesh(), lines, all);
@@ -197,12 +206,7 @@ TEST_CASE("edge marks: any edges are read again, with their classes") {
 
 TEST_CASE("edge marks: vertices of many edges, voids and hull edges") {
   Random random(9);
-  std::vector<Tin> tins = {with_voids(rolling_tin(200, 6)), Tin{}};
-  for (const Point p : circle_points(1105 * 1105, random)) {
-    tins[1].vertices.push_back({p.x, p.y, 0});
-  }
-  tins[1].vertices.push_back({32768, 32768, 9});
-  for (const Tin& tin : tins) {
+  for (const Tin& tin : {with_voids(rolling_tin(200, 6)), wheel()}) {
     const Bytes stream = encode(tin, Metadata(), {32, Coding::kBalanced});
     for (const uint32_t one_of : {1u, 2u, 9u}) {
       Classes expected;
@@ -245,34 +249,46 @@ TEST_CASE("edge marks: lines come back as paths that cover each edge once") {
   CHECK(found == expected);
 }
 
+namespace {
+
+// Fed in pieces, with so many steps in each call.
+void check_pieces(const Decoded& decoded, const Classes& expected, size_t piece, uint32_t steps) {
+  const microtin_mesh* const mesh = decoded.device.mesh;
+  const Bytes bytes = joined(decoded.behind, {1, 2, 3});
+  const Marks marks(mesh);
+  size_t at = 0;
+  uint64_t calls = 0;
+  microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+  while (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) {
+    const Bytes copy(
+        bytes.begin() + static_cast<std::ptrdiff_t>(at),
+        bytes.begin() + static_cast<std::ptrdiff_t>(std::min(at + piece, bytes.size())));
+    size_t used = 0;
+    status = microtin_edge_marks_feed(marks.marks, copy.data(), copy.size(), &used, steps);
+    at += used;
+    ++calls;
+    REQUIRE(calls <= 10 * microtin_mesh_vertex_count(mesh) + bytes.size());
+  }
+  CHECK(status == MICROTIN_STATUS_OK);
+  CHECK(at == decoded.behind.size());
+  CHECK(marks.classes(mesh) == expected);
+}
+
+}  // namespace
+
 TEST_CASE("edge marks: pieces and step limits change no result, and work is bounded") {
-  const Bytes stream = terrain_stream(500, 12);
-  const DecodedTerrain terrain(stream);
   Random random(12);
-  for (const uint32_t one_of : {1u, 40u}) {
-    Classes expected;
-    const Decoded decoded(
-        with_lines(stream, random_edges(terrain.mesh(), one_of, random, expected)));
-    const Bytes bytes = joined(decoded.behind, {1, 2, 3});
-    for (const size_t piece : {size_t{1}, size_t{7}, size_t{100}, bytes.size()}) {
-      for (const uint32_t steps : {1u, 5u, 0u}) {
-        const Marks marks(decoded.device.mesh);
-        size_t at = 0;
-        uint64_t calls = 0;
-        microtin_status status = MICROTIN_STATUS_NEED_INPUT;
-        while (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) {
-          const Bytes copy(
-              bytes.begin() + static_cast<std::ptrdiff_t>(at),
-              bytes.begin() + static_cast<std::ptrdiff_t>(std::min(at + piece, bytes.size())));
-          size_t used = 0;
-          status = microtin_edge_marks_feed(marks.marks, copy.data(), copy.size(), &used, steps);
-          at += used;
-          ++calls;
-          REQUIRE(calls <= 10 * 500 + bytes.size());
-        }
-        CHECK(status == MICROTIN_STATUS_OK);
-        CHECK(at == decoded.behind.size());
-        CHECK(marks.classes(decoded.device.mesh) == expected);
+  // A step around the wheel's centre takes many bytes.
+  const Bytes streams[] = {terrain_stream(500, 12),
+                           encode(wheel(), Metadata(), {32, Coding::kBalanced})};
+  for (const Bytes& stream : streams) {
+    const DecodedTerrain terrain(stream);
+    for (const uint32_t one_of : {1u, 4u, 40u}) {
+      Classes expected;
+      const Decoded decoded(
+          with_lines(stream, random_edges(terrain.mesh(), one_of, random, expected)));
+      for (const size_t piece : {size_t{1}, size_t{7}, size_t{100}, decoded.behind.size() + 3}) {
+        for (const uint32_t steps : {1u, 5u, 0u}) check_pieces(decoded, expected, piece, steps);
       }
     }
   }
@@ -292,6 +308,9 @@ TEST_CASE("edge marks: each damaged byte is found, and each prefix is too short"
       CHECK(marks.classes(decoded.device.mesh).empty());
       CHECK(microtin_edge_marks_count(marks.marks) == 0);
       CHECK(marks.read(decoded.behind) == status);  // it stays so
+      CHECK_THROWS_WITH(
+          EdgeMarks(decoded.device.mesh, damaged.data(), damaged.data() + damaged.size()),
+          "the marks of edges behind the stream are damaged");
     }
     damaged[at] = decoded.behind[at];
   }
