@@ -80,7 +80,7 @@ inline Log2 rough_log2_of_area(int64_t v) {
                          : rough_log2(static_cast<uint32_t>(size));
 }
 
-constexpr Log2 kTurnsBack = 1 << 15;
+constexpr Log2 kTurnsBack = Log2{1} << 15;
 
 // How far an edge turns away from straight on: the logarithm of the square of the sine, times a
 // number that all edges after h share.
