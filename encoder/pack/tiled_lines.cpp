@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
+#include "encoder/terrain/raster_scan.hpp"
 
 namespace microtin::pack {
 namespace {
@@ -265,11 +266,6 @@ class TileCutter {
   LinesInTile& found_;
   LinePath path_;
 };
-
-uint64_t mixed(uint64_t sum, uint64_t number) {
-  const uint64_t product = (sum ^ number) * 0x9E3779B97F4A7C15u;
-  return product ^ (product >> 29);
-}
 
 uint64_t bits_of(double value) {
   uint64_t bits = 0;

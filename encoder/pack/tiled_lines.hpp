@@ -21,7 +21,7 @@ struct BorderPins {
   std::vector<Pin> heights;   // of posts between these, where a line with heights runs along them
 };
 
-// The parts of lines in a tile, by place in it. Parts with a common place have a vertex there.
+// The parts of lines in a tile, by place in it.
 struct LinesInTile {
   std::vector<LinePath> paths;
   std::vector<LineStop> stops;  // at vertices of borders

@@ -142,8 +142,9 @@ void add_simplified(const LatticeLine& line, LineRoom room, const PositionTest& 
   for (std::size_t i = 1; i < all.size(); ++i) chain.push_back(all[i]);
 }
 
-// The position that stands for a place of a line: the nearest one, or else the nearest corner of
-// the lattice cell around the place that may. Nothing if none at the line may.
+// The position that stands for a place of a line: the nearest one, or, if that may not be a vertex,
+// the nearest corner of the lattice cell around the place that may be one. Nothing if no corner
+// near enough to the line may be one.
 std::optional<Point> standing_position(LinePlace place, const PositionTest& may_stand) {
   const Point nearest = nearest_position(place);
   if (!may_stand || may_stand(nearest)) return nearest;

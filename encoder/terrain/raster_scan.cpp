@@ -76,11 +76,6 @@ class Octave {
   Wide of_height_, of_bound_;  // units, twice that of bounds
 };
 
-uint64_t mixed(uint64_t fingerprint, uint64_t number) {
-  const uint64_t product = (fingerprint ^ number) * 0x9E3779B97F4A7C15u;
-  return product ^ product >> 29;
-}
-
 struct BlockScan {
   uint64_t posts, voids;
   Mended mended;

@@ -14,6 +14,12 @@
 
 namespace microtin::terrain {
 
+// A fingerprint that depends on a further number.
+inline uint64_t mixed(uint64_t fingerprint, uint64_t number) {
+  const uint64_t product = (fingerprint ^ number) * 0x9E3779B97F4A7C15u;
+  return product ^ product >> 29;
+}
+
 struct RasterScan {
   uint64_t posts = 0, voids = 0;  // with a height, and without one
   Mended mended;

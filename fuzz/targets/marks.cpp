@@ -38,7 +38,7 @@ struct Terrain {
   uint64_t digest = 0;
 };
 
-// Around the third one's centre lie so many edges that not all of them are looked at.
+// The centre of the third one has more edges than a decoder looks at.
 const Terrain& terrain_of(uint8_t choice) {
   static std::deque<Terrain> terrains;
   if (terrains.empty()) {

@@ -24,7 +24,8 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-// Cells whose posts overlap by one column, a coarse cell beside them, and points of two files.
+// Writes cells whose posts overlap by one column, a coarse cell next to them, and two files of
+// points.
 class Files {
  public:
   Files() {

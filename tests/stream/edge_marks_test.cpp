@@ -251,7 +251,7 @@ TEST_CASE("edge marks: lines come back as paths that cover each edge once") {
 
 namespace {
 
-// Fed in pieces, with so many steps in each call.
+// Feeds the bytes in pieces, with a limit of steps for each call.
 void check_pieces(const Decoded& decoded, const Classes& expected, size_t piece, uint32_t steps) {
   const microtin_mesh* const mesh = decoded.device.mesh;
   const Bytes bytes = joined(decoded.behind, {1, 2, 3});
