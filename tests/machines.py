@@ -137,8 +137,12 @@ def slurm():
 def parallel():
     if shutil.which("parallel") is None:
         skip("parallel")
-    # Machines by the name of ssh: each runs the words of its command with a shell, as sshd does.
-    Path("bin/ssh").write_text('#!/bin/sh\nwhile [ "${1#-}" != "$1" ]; do shift; done\nshift\n[ "$1" != -- ] || shift\nexec sh -c "$*"\n')
+    # Machines by the name of ssh: each runs the words of its command with a shell, as sshd does. GNU parallel runs no job
+    # and reports success where SHELL is not set; sshd sets it.
+    Path("bin/ssh").write_text(
+        '#!/bin/sh\nwhile [ "${1#-}" != "$1" ]; do shift; done\nshift\n[ "$1" != -- ] || shift\n'
+        'export SHELL=/bin/sh\nexec sh -c "$*"\n'
+    )
     os.chmod("bin/ssh", 0o755)
     os.environ["PARALLEL_SSH"] = os.path.abspath("bin/ssh")
     Path("machines").write_text("1/alpha\n1/beta\n")
