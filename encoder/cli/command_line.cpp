@@ -198,13 +198,13 @@ void add_verify(CLI::App& app, Action& action) {
   command.group(kLookAt);
   add_stream(command, request->input);
   add_terrain(command, request->source, request->preparation);
-  add_preparation(command, request->preparation);
+  add_preparation(command, request->preparation, request->options);
   begin_group(command, kOptions);
   command.add_flag("--never-below", request->never_below,
                    "Fail also if the surface is below the source anywhere");
-  add_error_map(command, request->preparation, "the file states the bound elsewhere");
-  add_breaklines(command, request->breaklines, "Fail also if edges do not follow");
-  add_obstacles(command, request->preparation);
+  add_error_map(command, request->options, "the file states the bound elsewhere");
+  add_breaklines(command, request->options, "Fail also if edges do not follow");
+  add_obstacles(command, request->options);
   add_json(command, request->json);
   command.callback([request, &action] { action = [request] { run_verify(*request); }; });
 }
@@ -274,7 +274,7 @@ void add_render(CLI::App& app, Action& action) {
   command.add_flag("--world-file", request->world,
                    "Write also a .pgw file with the position of the map");
   command.add_flag("--force", request->force, "Draw a pack of more than 2^24 vertices");
-  add_preparation(command, request->preparation);
+  add_preparation(command, request->preparation, request->options);
   command.callback([request, &action] {
     take_stream_from_sources(*request);
     if (request->input.empty()) throw CLI::RequiredError("STREAM");

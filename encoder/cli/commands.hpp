@@ -16,22 +16,30 @@
 #include "encoder/picture/palette.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/options.hpp"
+#include "microtin/encoder.hpp"
 #include "microtin/microtin.h"
 
 namespace microtin::cli {
 
-struct EncodeRequest : EncodeOptions {
-  std::string input;
-  std::string output;
-  std::optional<TileRange> tiles;  // a shard of a pack, with these
-  Preparation preparation;
-  std::string breaklines;  // the file of lines that become edges; empty: none
+// A terrain, and the options of the library that say how it is read.
+struct TerrainRequest {
+  std::string source;
+  Preparation preparation;  // what only the command line sets of it
+  encoder::Options options;
 };
 
-void run_encode(EncodeRequest request);
+struct EncodeRequest : TerrainRequest {
+  std::string output;
+  std::optional<TileRange> tiles;  // a shard of a pack, with these
+  uint64_t device_ram = 0;         // as in EncodeOptions, and so are the next two
+  Adapter adapter = Adapter::kNone;
+  std::string resume;
+};
+
+void run_encode(const EncodeRequest& request);
 
 // Prints, for each shard, a line with the options that encode it as a single run would.
-void run_plan(EncodeRequest request, uint32_t shards);
+void run_plan(const EncodeRequest& request, uint32_t shards);
 
 struct UpdateRequest : EncodeRequest {
   std::string old;                     // the pack
@@ -39,7 +47,7 @@ struct UpdateRequest : EncodeRequest {
 };
 
 // Writes a pack in which only the tiles are new that the old one does not have for the terrain.
-void run_update(UpdateRequest request);
+void run_update(const UpdateRequest& request);
 
 void run_merge(const std::vector<std::string>& shards, const std::string& output);
 
@@ -113,11 +121,9 @@ void run_check(const std::string& input, bool as_json);
 // Throws Error, after the report, if a tile differs.
 void run_diff(const std::string& first, const std::string& second, bool as_json);
 
-struct VerifyRequest {
+// The terrain is read as the stream was encoded; breaklines must be edges.
+struct VerifyRequest : TerrainRequest {
   std::string input;
-  std::string source;
-  Preparation preparation;  // as the stream was encoded
-  std::string breaklines;   // the file of lines that must be edges; empty: none
   bool never_below = false;
   bool json = false;
 };
@@ -127,11 +133,11 @@ void run_verify(const VerifyRequest& request);
 
 void run_fractal(const std::string& output, uint32_t size, uint64_t seed);
 
-struct RenderRequest {
+// The distance from the source is drawn, too, if there is one; it is read as the stream was
+// encoded.
+struct RenderRequest : TerrainRequest {
   std::string input;
   std::string output;
-  std::string source;       // draw the distance from it, too; none if empty
-  Preparation preparation;  // of the source, as the stream was encoded
   uint32_t width = 1024;
   bool mesh = true;    // draw the triangles
   bool world = false;  // write a world file next to the picture

@@ -12,8 +12,7 @@
 #include "encoder/cli/options.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/files/output.hpp"
-#include "encoder/product/encode_pack.hpp"
-#include "encoder/product/pack_parts.hpp"
+#include "encoder/product/made_pack.hpp"
 
 namespace microtin::cli {
 namespace {
@@ -21,13 +20,12 @@ namespace {
 void run_cut(const std::string& input, const Extent& extent, const std::string& output) {
   refuse_overwriting({input}, output);
   OutputFile out(output);
-  StreamSpool streams(output);
-  const PackContent part = cut_pack(input, extent, streams);
-  write_pack(part, streams, out);
-  const PackReport report = report_of(part);
+  MadePack part = part_of_pack(input, extent, output);
+  part.write(out);
+  const PackReport& report = part.report();
   deliver(out, output,
-          "tiles: " + std::to_string(tile_columns(part.grid)) + " x " +
-              std::to_string(tile_rows(part.grid)) + ", " + std::to_string(report.vertices) +
+          "tiles: " + std::to_string(tile_columns(report.grid)) + " x " +
+              std::to_string(tile_rows(report.grid)) + ", " + std::to_string(report.vertices) +
               " vertices, " + std::to_string(report.bytes) + " bytes\n");
 }
 

@@ -17,16 +17,15 @@
 #include "encoder/exact/units.hpp"
 #include "encoder/files/descriptors.hpp"
 #include "encoder/files/output.hpp"
-#include "encoder/import/breaklines.hpp"
 #include "encoder/import/cloud.hpp"
 #include "encoder/import/prepared_terrain.hpp"
 #include "encoder/import/reference.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
-#include "encoder/product/pack_parts.hpp"
+#include "encoder/product/made_pack.hpp"
+#include "encoder/product/public_options.hpp"
 #include "encoder/product/update_pack.hpp"
 #include "encoder/terrain/clouds.hpp"
-#include "encoder/terrain/raster_scan.hpp"
 #include "encoder/terrain/voids.hpp"
 #include "encoder/verify/everywhere_bound.hpp"
 
@@ -35,15 +34,40 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// A command, in the terms of the library's parts.
+struct Job : EncodeOptions {
+  std::string input, output;
+  std::optional<TileRange> tiles;
+  Preparation preparation;
+};
+
+Job job_of(const EncodeRequest& request) {
+  Job job{options_of(request.options), request.source, request.output, request.tiles,
+          preparation_of(request.options, request.preparation)};
+  job.lattice.water_level = job.preparation.water_level;
+  job.device_ram = request.device_ram;
+  job.adapter = request.adapter;
+  job.resume = request.resume;
+  return job;
+}
+
+// The pack of an update states itself what obstacles imply.
+Job encoding_of(const EncodeRequest& request) {
+  Job job = job_of(request);
+  if (!request.options.obstacles.empty()) imply_obstacles(job);
+  return job;
+}
+
 std::vector<std::string> inputs_of(const EncodeRequest& request) {
-  std::vector<std::string> files = files_of(request.input, request.preparation);
-  if (!request.breaklines.empty()) files.push_back(request.breaklines);
+  std::vector<std::string> files =
+      files_of(request.source, preparation_of(request.options, request.preparation));
+  if (!request.options.breaklines.empty()) files.push_back(request.options.breaklines);
   return files;
 }
 
-bool makes_pack(const EncodeRequest& request) {
-  return request.tile_vertices != 0 || request.tiles || request.adapter != Adapter::kNone ||
-         suffix_of(request.output) == ".mtp";
+bool makes_pack(const Job& job) {
+  return job.tile_vertices != 0 || job.tiles || job.adapter != Adapter::kNone ||
+         suffix_of(job.output) == ".mtp";
 }
 
 std::string moved(Decimal displacement) {
@@ -51,21 +75,21 @@ std::string moved(Decimal displacement) {
   return ", values move by up to " + to_string(displacement);
 }
 
-std::string warnings(const EncodeRequest& request, const Reference& reference) {
+std::string warnings(const Job& job, const Reference& reference) {
   std::string text;
   for (const std::string& one : reference.warnings) text += "warning: " + one + '\n';
-  const bool is_grid = suffix_of(request.input) == ".asc";
+  const bool is_grid = suffix_of(job.input) == ".asc";
   if (reference.horizontal_unit == Unit::kUnknown && is_grid) {
-    text += "warning: a .prj next to " + request.input + " can state it\n";
+    text += "warning: a .prj next to " + job.input + " can state it\n";
   }
   return text;
 }
 
 // In which units the header says that the terrain is.
-std::string units(const EncodeRequest& request, const Reference& source) {
+std::string units(const Job& job, const Reference& source) {
   const Reference reference = completed(source);
   return "units: x and y " + std::string(name_of(reference.horizontal_unit)) + ", z " +
-         std::string(name_of(reference.vertical_unit)) + '\n' + warnings(request, reference);
+         std::string(name_of(reference.vertical_unit)) + '\n' + warnings(job, reference);
 }
 
 std::string merged(uint64_t points, DuplicateRule rule) {
@@ -78,9 +102,9 @@ std::string merged(uint64_t points, DuplicateRule rule) {
 }
 
 std::string at_true_places(const std::optional<Verification>& measured,
-                           const std::optional<Decimal>& bound, const EncodeRequest& request) {
+                           const std::optional<Decimal>& bound, const Job& job) {
   if (!measured) return "";
-  const bool is_bound = request.lattice.bound_at == BoundScope::kTruePlaces && bound;
+  const bool is_bound = job.lattice.bound_at == BoundScope::kTruePlaces && bound;
   return "... where the points truly lie: at most " + to_string(measured->max_error) + ", rms " +
          to_string(measured->rms_error) + ", mean " + to_string(measured->mean_error) +
          (is_bound ? " (the bound holds there, too)" : "") + "; below the points: at most " +
@@ -115,7 +139,7 @@ std::string source_of_points(uint64_t points, const std::string& selection) {
          '\n';
 }
 
-std::string source_of(const Source& source, const Verification& measured) {
+std::string text_of_source(const Source& source, const Verification& measured) {
   if (const auto* const cloud = std::get_if<PointCloud>(&source)) {
     return source_of_points(measured.posts, cloud->selection);
   }
@@ -151,29 +175,28 @@ std::string along_lines(const EncodedStream& encoded) {
   return text;
 }
 
-std::string stream_report(const Source& source, const EncodedStream& encoded,
-                          const EncodeRequest& request) {
+std::string stream_report(const Source& source, const EncodedStream& encoded, const Job& job) {
   const Laid& laid = encoded.laid;
   const bool posts = std::holds_alternative<Raster>(source);
   const Verification& measured = encoded.verification;
   std::ostringstream text;
   text.exceptions(std::ios::badbit);  // else a text for which memory is short ends early, unsaid
-  text << source_of(source, measured) << "step of x and y: " << to_string(laid.xy_step)
+  text << text_of_source(source, measured) << "step of x and y: " << to_string(laid.xy_step)
        << (posts ? " (in posts)" : "") << moved(laid.xy_displacement)
        << "\nstep of z: " << to_string(laid.z_step) << moved(laid.z_displacement) << '\n'
-       << merged(laid.merged, request.lattice.duplicates) << "stream: " << encoded.vertices
+       << merged(laid.merged, job.lattice.duplicates) << "stream: " << encoded.vertices
        << " vertices, " << encoded.stream.size() << " bytes, "
        << bits_per_vertex(encoded.stream.size(), encoded.vertices) << " bits/vertex\n"
        << "error: at most " << to_string(measured.max_error) << ", rms "
        << to_string(measured.rms_error) << ", mean " << to_string(measured.mean_error);
   if (encoded.bound && !encoded.bounds) {
-    text << (request.lattice.max_error ? " (asked for: at most " : " (found: at most ")
+    text << (job.lattice.max_error ? " (asked for: at most " : " (found: at most ")
          << to_string(*encoded.bound) << ")";
   }
   text << '\n'
-       << own_bounds(encoded.bounds) << at_true_places(encoded.true_places, encoded.bound, request)
+       << own_bounds(encoded.bounds) << at_true_places(encoded.true_places, encoded.bound, job)
        << beyond(measured, encoded.everywhere,
-                 request.lattice.bound_at == BoundScope::kEverywhere && encoded.bound)
+                 job.lattice.bound_at == BoundScope::kEverywhere && encoded.bound)
        << along_lines(encoded);
   return text.str();
 }
@@ -205,98 +228,91 @@ std::string settings(const PackReport& pack, Adapter adapter) {
 }
 
 // Warns of values that may not be heights, before the work begins.
-void announce(const EncodeRequest& request, const std::string& text) {
-  if (!text.empty()) std::fputs(warning(request.input + ": " + text).c_str(), stderr);
+void announce(const Job& job, const std::string& text) {
+  if (!text.empty()) std::fputs(warning(job.input + ": " + text).c_str(), stderr);
 }
 
-void announce_grid(const EncodeRequest& request, const PointCloud& cloud) {
-  const std::string text = warning_on_grid(cloud);
-  announce(request, text.empty() ? text : text + ": use --gridded");
+void announce_grid(const Job& job, const std::string& text) {
+  announce(job, text.empty() ? text : text + ": use --gridded");
 }
 
-RasterScan scan_for_fill(const EncodeRequest& request, const RasterReader& raster) {
-  RasterScan scanned = scan(raster, {}, false, {});
-  announce(request, warning_on_fill(scanned.extremes, raster.frame().decimals));
-  return scanned;
+OpenSource open_source(const Job& job) {
+  return prepared_source(job.input, job.preparation);
 }
 
-std::unique_ptr<RasterReader> open_raster(const EncodeRequest& request) {
-  OpenSource source = prepared_source(request.input, request.preparation);
-  auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
-  if (raster == nullptr) {
-    throw Error(request.input + ": only packs of rasters have shards, and these are points");
-  }
-  scan_for_fill(request, **raster);
-  return std::move(*raster);
+// What the source holds, after warnings about it.
+SourceFacts announced(const Job& job, const PackSource& source) {
+  SourceFacts facts = facts_of(source);
+  announce(job, facts.fill);
+  announce_grid(job, facts.grid);
+  return facts;
+}
+
+const RasterReader& raster_of(const Job& job, const PackSource& source) {
+  const RasterReader* const raster =
+      with_file_context(job.input, [&] { return &raster_with_shards(source); });
+  announced(job, source);
+  return *raster;
 }
 
 // Each of these writes what is asked for and returns what to say of it.
-std::string encode_raster(const RasterReader& raster, const EncodeRequest& request,
-                          OutputFile& out) {
-  const RasterScan scanned = scan_for_fill(request, raster);
-  StreamSpool streams(request.output);
-  const PackContent pack = with_file_context(request.input, [&] {
+std::string encode_tiles(const Job& job, OutputFile& out) {
+  const OpenSource opened = open_source(job);
+  const RasterReader& raster = raster_of(job, source_of(opened));
+  const ShardReport shard = with_file_context(job.input, [&] {
     ProgressBar bar;
-    return encode_pack(raster, request, streams, bar.progress());
-  });
-  write_pack(pack, streams, out);
-  const Raster& frame = raster.frame();
-  return source_of_posts(scanned.posts, scanned.voids, scanned.mended, frame.selection) +
-         pack_report(report_of(pack), is_bound_everywhere(request.lattice)) +
-         settings(report_of(pack), request.adapter) + units(request, frame.reference);
-}
-
-std::string encode_points(const PointCloud& cloud, const EncodeRequest& request, OutputFile& out) {
-  announce(request, warning_on_fill(cloud));
-  announce_grid(request, cloud);
-  const EncodedPoints made =
-      with_file_context(request.input, [&] { return encode_pack(cloud, request); });
-  out.write(made.bytes);
-  std::string text = source_of_points(made.points, cloud.selection);
-  text += "step of x and y: " + to_string(made.xy_step) + moved(made.xy_displacement) + "\n";
-  return text + merged(made.merged, request.lattice.duplicates) + pack_report(made.report) +
-         settings(made.report, request.adapter) +
-         at_true_places(made.true_places, made.report.bound, request) +
-         units(request, cloud.reference);
-}
-
-std::string encode_tiles(const EncodeRequest& request, OutputFile& out) {
-  const std::unique_ptr<RasterReader> raster = open_raster(request);
-  const ShardReport shard = with_file_context(request.input, [&] {
-    ProgressBar bar;
-    return encode_shard(*raster, request, *request.tiles, out, bar.progress());
+    return encode_shard(raster, job, *job.tiles, out, bar.progress());
   });
   return "tiles: " + range_text(shard.tiles) + " of " + range_text(shard.all) + ", " +
          std::to_string(shard.vertices) + " vertices\n" +
-         warnings(request, completed(raster->frame().reference));
+         warnings(job, completed(raster.frame().reference));
 }
 
-std::string encode_tiled(const EncodeRequest& request, OutputFile& out) {
-  if (request.tiles) return encode_tiles(request, out);
-  const OpenSource source = prepared_source(request.input, request.preparation);
-  if (const auto* cloud = std::get_if<PointCloud>(&source)) {
-    return encode_points(*cloud, request, out);
-  }
-  return encode_raster(*std::get<std::unique_ptr<RasterReader>>(source), request, out);
+std::string text_before(const EncodedPoints& made, const Job& job, const std::string& selection) {
+  return source_of_points(made.points, selection) + "step of x and y: " + to_string(made.xy_step) +
+         moved(made.xy_displacement) + "\n" + merged(made.merged, job.lattice.duplicates);
 }
 
-std::string encode_whole(const EncodeRequest& request, OutputFile& out) {
-  const Source source = prepared_terrain(request.input, request.preparation);
-  announce(request, std::visit([](const auto& one) { return warning_on_fill(one); }, source));
-  if (const auto* const cloud = std::get_if<PointCloud>(&source)) {
-    announce_grid(request, *cloud);
-  }
-  const EncodedStream encoded = with_file_context(request.input, [&] {
+std::string encode_tiled(const Job& job, OutputFile& out) {
+  if (job.tiles) return encode_tiles(job, out);
+  const OpenSource opened = open_source(job);
+  const PackSource source = source_of(opened);
+  const SourceFacts facts = announced(job, source);
+  MadePack pack = with_file_context(job.input, [&] {
     ProgressBar bar;
-    return encode_stream(source, request, bar.progress());
+    return made_pack(source, job, job.output, bar.progress());
+  });
+  pack.write(out);
+  const std::string text = pack_report(pack.report(), is_bound_everywhere(job.lattice)) +
+                           settings(pack.report(), job.adapter);
+  if (const auto* const cloud = std::get_if<PointCloud>(&opened)) {
+    return text_before(*pack.points(), job, cloud->selection) + text +
+           at_true_places(pack.points()->true_places, pack.report().bound, job) +
+           units(job, cloud->reference);
+  }
+  const Raster& frame = std::get<const RasterReader*>(source)->frame();
+  return source_of_posts(facts.scanned->posts, facts.scanned->voids, facts.scanned->mended,
+                         frame.selection) +
+         text + units(job, frame.reference);
+}
+
+std::string encode_whole(const Job& job, OutputFile& out) {
+  const Source source = prepared_terrain(job.input, job.preparation);
+  announce(job, std::visit([](const auto& one) { return warning_on_fill(one); }, source));
+  if (const auto* const cloud = std::get_if<PointCloud>(&source)) {
+    announce_grid(job, warning_on_grid(*cloud));
+  }
+  const EncodedStream encoded = with_file_context(job.input, [&] {
+    ProgressBar bar;
+    return encode_stream(source, job, bar.progress());
   });
   out.write(encoded.stream);
-  return stream_report(source, encoded, request) + units(request, reference_of(source));
+  return stream_report(source, encoded, job) + units(job, reference_of(source));
 }
 
-void announce_left_out(const EncodeRequest& request) {
-  std::vector<std::string> names = request.preparation.more_files;
-  names.insert(names.begin(), request.input);
+void announce_left_out(const Job& job) {
+  std::vector<std::string> names = job.preparation.more_files;
+  names.insert(names.begin(), job.input);
   for (const std::string& name : names) {
     const std::string text = left_out_of(name);
     if (!text.empty()) std::fputs(warning(text).c_str(), stderr);
@@ -304,18 +320,18 @@ void announce_left_out(const EncodeRequest& request) {
 }
 
 // What the points of all files take, which are read into memory, if that is much.
-void announce_memory(const EncodeRequest& request) {
+void announce_memory(const Job& job, const std::vector<std::string>& inputs) {
   constexpr double kGigabyte = 1e9, kOfStream = 100, kOfPack = 180;  // bytes for a point
   uint64_t points = 0;
-  for (const std::string& file : inputs_of(request)) points += points_expected(file);
-  const double bytes = static_cast<double>(points) * (makes_pack(request) ? kOfPack : kOfStream);
+  for (const std::string& file : inputs) points += points_expected(file);
+  const double bytes = static_cast<double>(points) * (makes_pack(job) ? kOfPack : kOfStream);
   if (bytes < kGigabyte) return;
   const auto machine = static_cast<double>(machine_memory());
   char text[160];
   std::snprintf(text, sizeof text,
                 "about %.0f points take about %.2g GB of memory; this machine has %.2g GB",
                 static_cast<double>(points), bytes / kGigabyte, machine / kGigabyte);
-  std::fputs(warning(request.input + ": " + text).c_str(), stderr);
+  std::fputs(warning(job.input + ": " + text).c_str(), stderr);
 }
 
 // A name that says something else would have other programs read what is none of theirs. Shards are
@@ -329,46 +345,42 @@ void expect_own_suffix(const std::string& output, bool is_pack) {
 }
 
 // The file of finished tiles is removed at the end, so it is no other file of the command.
-void expect_own_resume_file(const EncodeRequest& request) {
-  if (request.resume.empty()) return;
-  refuse_overwriting(inputs_of(request), request.resume);
+void expect_own_resume_file(const Job& job, const std::vector<std::string>& inputs) {
+  if (job.resume.empty()) return;
+  refuse_overwriting(inputs, job.resume);
   const auto full = [](const std::string& path) {
     return fs::weakly_canonical(fs::absolute(fs::u8path(path)));
   };
-  if (full(request.resume) != full(request.output)) return;
-  throw Error(request.resume + ": is also the output; name another file for --resume");
-}
-
-void take_breaklines(EncodeRequest& request) {
-  if (request.breaklines.empty()) return;
-  BreaklineFile read = read_breaklines(request.breaklines);
-  request.lattice.breaklines = std::move(read.lines);
-  request.lattice.line_classes = std::move(read.classes);
+  if (full(job.resume) != full(job.output)) return;
+  throw Error(job.resume + ": is also the output; name another file for --resume");
 }
 
 }  // namespace
 
-void run_encode(EncodeRequest request) {
-  refuse_overwriting(inputs_of(request), request.output);
-  expect_own_resume_file(request);
-  if (!request.tiles) expect_own_suffix(request.output, makes_pack(request));
-  OutputFile out(request.output);  // fails early if it cannot be written
-  announce_left_out(request);
-  announce_memory(request);
-  take_breaklines(request);
-  deliver(out, request.output,
-          makes_pack(request) ? encode_tiled(request, out) : encode_whole(request, out));
+void run_encode(const EncodeRequest& request) {
+  Job job = encoding_of(request);
+  const std::vector<std::string> inputs = inputs_of(request);
+  refuse_overwriting(inputs, job.output);
+  expect_own_resume_file(job, inputs);
+  if (!job.tiles) expect_own_suffix(job.output, makes_pack(job));
+  OutputFile out(job.output);  // fails early if it cannot be written
+  announce_left_out(job);
+  announce_memory(job, inputs);
+  take_breaklines(request.options, job);
+  deliver(out, job.output, makes_pack(job) ? encode_tiled(job, out) : encode_whole(job, out));
   std::error_code none;
-  if (!request.resume.empty()) fs::remove(fs::u8path(request.resume), none);
+  if (!job.resume.empty()) fs::remove(fs::u8path(job.resume), none);
 }
 
-void run_plan(EncodeRequest request, uint32_t shards) {
+void run_plan(const EncodeRequest& request, uint32_t shards) {
+  Job job = encoding_of(request);
   refuse_overwriting(inputs_of(request), "-");
-  take_breaklines(request);
-  const std::unique_ptr<RasterReader> raster = open_raster(request);
-  const std::vector<ShardPlan> plans = with_file_context(request.input, [&] {
+  take_breaklines(request.options, job);
+  const OpenSource source = open_source(job);
+  const RasterReader& raster = raster_of(job, source_of(source));
+  const std::vector<ShardPlan> plans = with_file_context(job.input, [&] {
     ProgressBar bar;
-    return plan_shards(*raster, request, shards, bar.progress());
+    return plan_shards(raster, job, shards, bar.progress());
   });
   std::string text;
   for (const ShardPlan& plan : plans) {
@@ -378,40 +390,39 @@ void run_plan(EncodeRequest request, uint32_t shards) {
   print(text);
 }
 
-void run_update(UpdateRequest request) {
+void run_update(const UpdateRequest& request) {
+  Job job = job_of(request);
   std::vector<std::string> inputs = inputs_of(request);
   inputs.push_back(request.old);
-  refuse_overwriting(inputs, request.output);
-  expect_own_suffix(request.output, true);
-  OutputFile out(request.output);
-  announce_left_out(request);
-  take_breaklines(request);
-  Preparation preparation = request.preparation;
-  preparation.max_error = max_error_of_map(request.old);
-  const OpenSource source = prepared_source(request.input, preparation);
+  refuse_overwriting(inputs, job.output);
+  expect_own_suffix(job.output, true);
+  OutputFile out(job.output);
+  announce_left_out(job);
+  take_breaklines(request.options, job);
+  job.preparation.max_error = max_error_of_map(request.old);
+  const OpenSource source = open_source(job);
   const auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
   if (raster == nullptr) {
-    throw Error(request.input +
+    throw Error(job.input +
                 ": only packs of rasters are updated, and these are points; encode them again");
   }
-  StreamSpool streams(request.output);
-  const UpdatedPack updated = with_file_context(request.input, [&] {
+  UpdatedTiles updated = with_file_context(job.input, [&] {
     ProgressBar bar;
-    return update_pack(request.old, **raster, request, request.bound_at, streams, bar.progress());
+    return updated_pack(request.old, **raster, job, request.bound_at, job.output, bar.progress());
   });
-  write_pack(updated.content, streams, out);
-  deliver(out, request.output,
-          "kept: " + std::to_string(updated.kept) + " of " +
-              std::to_string(updated.content.tiles.size()) + " tiles\n" +
-              pack_report(report_of(updated.content)));
+  updated.pack.write(out);
+  deliver(out, job.output,
+          "kept: " + std::to_string(updated.kept) + " of " + std::to_string(updated.tiles) +
+              " tiles\n" + pack_report(updated.pack.report()));
 }
 
 void run_merge(const std::vector<std::string>& shards, const std::string& output) {
   refuse_overwriting(shards, output);
   expect_own_suffix(output, true);
   OutputFile out(output);
-  StreamSpool streams(output);
-  deliver(out, output, pack_report(merge_parts(shards, streams, out)));
+  MadePack pack = merged_pack(shards, output);
+  pack.write(out);
+  deliver(out, output, pack_report(pack.report()));
 }
 
 }  // namespace microtin::cli

@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "encoder/base/text.hpp"
 #include "encoder/cli/command_line.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/definitions.hpp"
@@ -16,7 +16,6 @@
 #include "encoder/stream/device_memory.hpp"
 #include "microtin/encoder.hpp"
 #include "microtin/microtin.h"
-#include "shared/format.hpp"
 
 namespace microtin::cli {
 namespace {
@@ -27,27 +26,24 @@ bool read_tiles(std::string_view text, TileRange& range) {
          read_number(text.substr(colon + 1), range.last) && range.first <= range.last;
 }
 
-void add_search(CLI::App& command, Search& search) {
+void add_search(CLI::App& command, encoder::Options& options) {
   begin_group(command, "Time to search, with a bound or a limit");
-  const auto add = [&](const char* name, Search value, const char* description) {
+  const auto add = [&](const char* name, const char* effort, const char* description) {
     return command.add_flag_callback(
-        name, [&search, value] { search = value; }, description);
+        name, [&options, effort] { encoder::set_option(options, "effort", effort); }, description);
   };
   CLI::Option* const fast =
-      add("--fast", Search::kFast, "Search for a short time; files are some 18 % larger");
-  add("--best", Search::kBest, "Search for a long time, about four times the usual one")
-      ->excludes(fast);
+      add("--fast", "fast", "Search for a short time; files are some 18 % larger");
+  add("--best", "best", "Search for a long time, about four times the usual one")->excludes(fast);
 }
 
-void add_coding(CLI::App& command, Effort& effort) {
+void add_coding(CLI::App& command, encoder::Options& options) {
   begin_group(command, "Work of the device");
-  add_choice<Coding>(
-      command, "--coding", effort.coding,
-      {{"quick", Coding::kQuick}, {"balanced", Coding::kBalanced}, {"dense", Coding::kDense}},
-      "Trade file size against decoding time. quick: fastest to decode. dense: "
-      "smallest file");
-  add_number(command, "--max-degree N", effort.degree, kMinDegree,
-             "Limit the triangles around a vertex when it is added", kMaxDegree)
+  add_named(command, "--coding", options,
+            "Trade file size against decoding time. quick: fastest to decode. dense: "
+            "smallest file");
+  add_named(command, "--max-degree N", options,
+            "Limit the triangles around a vertex when it is added")
       ->default_str("usually 10; 9 with quick; 16 if that saves 0.4 % below 2000 vertices");
 }
 
@@ -56,14 +52,13 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
                CLI::Option& bytes) {
   begin_group(command, "Packs and devices");
   CLI::Option* const tile =
-      add_number(command, "--tile-vertices N", request.tile_vertices, kFewestTileVertices,
-                 "Write a pack of tiles with at most N vertices each", uint32_t{kMaxVertices})
+      add_named(command, "--tile-vertices N", request.options,
+                "Write a pack of tiles with at most N vertices each")
           ->excludes(&vertices)
           ->excludes(&bytes)
           ->default_str(std::to_string(encoder::kUsualTileVertices) + " for .mtp files");
-  add_number(command, "--tile-size N", request.tile_size, 1u,
-             "Make tiles of a raster at most N steps between posts wide and high",
-             uint32_t{kLatticeMax})
+  add_named(command, "--tile-size N", request.options,
+            "Make tiles of a raster at most N steps between posts wide and high")
       ->default_str("chosen");
   add_number(command, "--device-ram BYTES", request.device_ram, device_ram(3),
              "Fit mesh and decoder into the RAM of a device. .mtin: with the best vertices that "
@@ -86,141 +81,96 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
 // Where the header has notes of the file unless options state others.
 constexpr const char* kOfFile = "what the file states";
 
-void add_quality_notes(CLI::App& command, SourceNotes& notes) {
-  const auto read_valid = [&notes](const std::string& text) {
-    notes.valid = text;
-    return is_iso_validity(text);
-  };
-  add_read(command, "--valid DATES", read_valid,
-           "dates such as 2024-01/2025-06, 2024-01/.. or ../2025",
-           "Note when the terrain is valid: two dates with a slash between, of which one may be ..")
-      ->default_str(kOfFile);
-  const auto read_epoch = [&notes](const std::string& text) {
-    notes.epoch = parse_epoch(text);
-    return notes.epoch.has_value();
-  };
-  add_read(command, "--epoch YEAR", read_epoch, "a year such as 2020.5",
-           "Note the epoch of the coordinates, a decimal year")
-      ->default_str(kOfFile);
-  const auto read_accuracy = [&notes](const std::string& text) {
-    notes.source_accuracy = parse_source_accuracy(text);
-    return notes.source_accuracy.has_value();
-  };
-  add_read(command, "--source-accuracy ACCURACY", read_accuracy,
-           "LE90, LE95 or RMSE and a number, such as 'LE90 4'",
-           "Note how accurate the source itself is: LE90, LE95 or RMSE, and a number in units of "
-           "height, such as 'LE90 4'")
-      ->default_str(kOfFile);
-}
-
-void add_notes(CLI::App& command, EncodeRequest& request) {
+void add_notes(CLI::App& command, encoder::Options& options) {
   begin_group(command, "Notes in the header");
-  std::vector<std::pair<std::string, SurfaceKind>> kinds;
-  for (const SurfaceKind kind : {SurfaceKind::kUnknown, SurfaceKind::kGround, SurfaceKind::kTop,
-                                 SurfaceKind::kBed, SurfaceKind::kGeoid, SurfaceKind::kObstacles}) {
-    kinds.emplace_back(name_of(kind), kind);
-  }
-  add_choice<SurfaceKind>(command, "--surface", request.surface, kinds,
-                          "Note what the heights are: bare ground, the top surface with vegetation "
-                          "and buildings, the bed of a sea or lake, a geoid, or an envelope of "
-                          "obstacles");
-  SourceNotes& notes = request.notes;
-  add_text(command, "--source-name NAME", notes.source, "Note where the terrain comes from")
-      ->default_str(kOfFile);
-  const auto read_date = [&notes](const std::string& text) {
-    notes.date = text;
-    return is_iso_date(text);
+  add_named(command, "--surface", options,
+            "Note what the heights are: bare ground, the top surface with vegetation "
+            "and buildings, the bed of a sea or lake, a geoid, or an envelope of obstacles");
+  const std::pair<const char*, const char*> notes[] = {
+      {"--source-name NAME", "Note where the terrain comes from"},
+      {"--date DATE",
+       "Note the date of the source: 2026, 2026-11 or 2026-11-21, or two of them with a slash "
+       "between"},
+      {"--lineage WORDS", "Note how the source was processed before"},
+      {"--attribution WORDS", "Note an attribution to be shown to users"},
+      {"--license LICENSE", "Note the licence of the source: an SPDX expression or a URL"},
+      {"--valid DATES",
+       "Note when the terrain is valid: two dates with a slash between, of which one may be .."},
+      {"--epoch YEAR", "Note the epoch of the coordinates, a decimal year"},
+      {"--source-accuracy ACCURACY",
+       "Note how accurate the source itself is: LE90, LE95 or RMSE, and a number in units of "
+       "height, such as 'LE90 4'"},
   };
-  add_read(command, "--date DATE", read_date, "a date such as 2026, 2026-11 or 2026-11-21",
-           "Note the date of the source: 2026, 2026-11 or 2026-11-21, or two of them with a "
-           "slash between")
-      ->default_str(kOfFile);
-  add_text(command, "--lineage WORDS", notes.lineage, "Note how the source was processed before")
-      ->default_str(kOfFile);
-  add_text(command, "--attribution WORDS", notes.attribution,
-           "Note an attribution to be shown to users")
-      ->default_str(kOfFile);
-  add_text(command, "--license LICENSE", notes.license,
-           "Note the licence of the source: an SPDX expression or a URL")
-      ->default_str(kOfFile);
-  add_quality_notes(command, notes);
-  command.add_flag(
-      "--digest", request.digest,
-      "Note a digest of a stream's mesh, by which a device checks its memory: 11 bytes");
-  command.add_flag("--phases", request.phases,
-                   "Note the vertices, bytes and largest error after each phase of a stream");
+  for (const auto& [definition, description] : notes) {
+    add_named(command, definition, options, description)->default_str(kOfFile);
+  }
+  add_named(command, "--digest", options,
+            "Note a digest of a stream's mesh, by which a device checks its memory: 11 bytes");
+  add_named(command, "--phases", options,
+            "Note the vertices, bytes and largest error after each phase of a stream");
 }
 
-void add_point_options(CLI::App& command, EncodeRequest& request) {
-  begin_group(command, "Points");
-  add_choice<DuplicateRule>(command, "--duplicates", request.lattice.duplicates,
-                            {{"middle", DuplicateRule::kMiddle},
-                             {"lowest", DuplicateRule::kLowest},
-                             {"highest", DuplicateRule::kHighest},
-                             {"mean", DuplicateRule::kMean}},
-                            "Choose the height where points share a lattice position. middle: all "
-                            "count, and the surface aims at the middle of the lowest and highest");
+void add_bound(CLI::App& command, EncodeRequest& request, CLI::Option*& vertices,
+               CLI::Option*& bytes) {
+  encoder::Options& options = request.options;
+  begin_group(command, "Bound or limit");
+  add_named(command, "--max-error METRES", options,
+            "Keep every height within this distance, in the terrain's unit")
+      ->default_str("every post or point is a vertex");
+  vertices = add_named(command, "--max-vertices N", options,
+                       "Find the smallest error that N vertices allow")
+                 ->default_str("no limit");
+  bytes = add_named(command, "--max-bytes BYTES", options,
+                    "Find the smallest error that a file of this size allows")
+              ->excludes(vertices)
+              ->default_str("no limit");
+  add_error_map(command, options,
+                "elsewhere --max-error holds, and --max-bytes and --max-vertices scale all bounds");
+  add_named(command, "--never-below", options,
+            "Keep the surface at or above every height, by at most the bound");
+  add_named(command, "--bound-at", options,
+            "Choose where --max-error holds. points: at posts, and at points where they "
+            "lie. lattice: at the lattice positions that stand for points. everywhere: on "
+            "the whole surface of a raster, compared with the bilinear one of its posts");
+  add_obstacles(command, options);
+  add_breaklines(command, options, "Make edges along");
 }
 
 void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>& request) {
-  add_terrain(command, request->input, request->preparation);
-  begin_group(command, "Bound or limit");
-  add_decimal(command, "--max-error METRES", request->lattice.max_error,
-              "Keep every height within this distance, in the terrain's unit")
-      ->default_str("every post or point is a vertex");
-  CLI::Option* const vertices =
-      add_number(command, "--max-vertices N", request->max_vertices, 3u,
-                 "Find the smallest error that N vertices allow", uint32_t{kMaxVertices})
-          ->default_str("no limit");
-  CLI::Option* const bytes = add_number(command, "--max-bytes BYTES", request->max_bytes, 1u,
-                                        "Find the smallest error that a file of this size allows")
-                                 ->excludes(vertices)
-                                 ->default_str("no limit");
-  add_error_map(command, request->preparation,
-                "elsewhere --max-error holds, and --max-bytes and --max-vertices scale all bounds");
-  command.add_flag("--never-below", request->lattice.never_below,
-                   "Keep the surface at or above every height, by at most the bound");
-  add_choice<BoundScope>(
-      command, "--bound-at", request->lattice.bound_at,
-      {{"points", BoundScope::kTruePlaces},
-       {"lattice", BoundScope::kLattice},
-       {"everywhere", BoundScope::kEverywhere}},
-      "Choose where --max-error holds. points: at posts, and at points where they "
-      "lie. lattice: at the lattice positions that stand for points. everywhere: on "
-      "the whole surface of a raster, compared with the bilinear one of its posts");
-  add_obstacles(command, request->preparation);
-  add_breaklines(command, request->breaklines, "Make edges along");
+  encoder::Options& options = request->options;
+  CLI::Option *vertices = nullptr, *bytes = nullptr;
+  add_terrain(command, request->source, request->preparation);
+  add_bound(command, *request, vertices, bytes);
   begin_group(command, "Lattice");
-  add_decimal(command, "--z-step METRES", request->lattice.z_step,
-              "Set the step of heights, in the terrain's unit")
+  add_named(command, "--z-step METRES", options, "Set the step of heights, in the terrain's unit")
       ->default_str("the source's; with --max-error that of the smallest file");
-  add_decimal(command, "--xy-step DISTANCE", request->lattice.xy_step,
-              "Set the step of positions: posts for rasters, the terrain's unit for points")
+  add_named(command, "--xy-step DISTANCE", options,
+            "Set the step of positions: posts for rasters, the terrain's unit for points")
       ->default_str("the source's");
-  add_point_options(command, *request);
-  add_search(command, request->search);
-  add_coding(command, request->effort);
+  begin_group(command, "Points");
+  add_named(command, "--duplicates", options,
+            "Choose the height where points share a lattice position. middle: all "
+            "count, and the surface aims at the middle of the lowest and highest");
+  add_search(command, options);
+  add_coding(command, options);
   add_tiles(command, *request, *vertices, *bytes);
-  add_preparation(command, request->preparation);
-  add_notes(command, *request);
+  add_preparation(command, request->preparation, options);
+  add_notes(command, options);
 }
 
-void check_encode_options(EncodeRequest& request) {
-  const bool has_map = !request.preparation.error_map.empty();
-  const bool has_bound = request.lattice.max_error.has_value();
-  if (has_bound && !has_map && (request.max_bytes | request.max_vertices) != 0) {
-    throw CLI::ExcludesError(request.max_bytes != 0 ? "--max-bytes" : "--max-vertices",
+void check_encode_options(const encoder::Options& options) {
+  const bool has_map = !options.error_map.empty();
+  const bool has_bound = !options.max_error.empty();
+  if (has_bound && !has_map && (options.max_bytes | options.max_vertices) != 0) {
+    throw CLI::ExcludesError(options.max_bytes != 0 ? "--max-bytes" : "--max-vertices",
                              "--max-error");
   }
-  if (request.lattice.never_below && !has_bound && !has_map && request.max_bytes == 0) {
+  if (options.never_below && !has_bound && !has_map && options.max_bytes == 0) {
     throw CLI::ValidationError("--never-below", "needs --max-error or --max-bytes");
   }
-  if (!request.preparation.obstacles.empty()) {
-    if (!has_bound) throw CLI::ValidationError("--obstacles", "needs --max-error");
-    product::imply_obstacles(request);
+  if (!options.obstacles.empty() && !has_bound) {
+    throw CLI::ValidationError("--obstacles", "needs --max-error");
   }
-  request.preparation.max_error = request.lattice.max_error;
-  request.lattice.water_level = request.preparation.water_level;
 }
 
 }  // namespace
@@ -244,7 +194,7 @@ void add_encode(CLI::App& app, Action& action) {
            "Keep the finished tiles of a raster's pack or shard in this file, and go on from it if "
            "it is there; it is removed at the end");
   command.callback([request, &action] {
-    check_encode_options(*request);
+    check_encode_options(request->options);
     action = [request] { run_encode(*request); };
   });
 }
@@ -262,7 +212,7 @@ void add_plan(CLI::App& app, Action& action) {
       ->default_str(std::to_string(request->shards));
   add_encode_options(command, request);
   command.callback([request, &action] {
-    check_encode_options(*request);
+    check_encode_options(request->options);
     action = [request] { run_plan(*request, request->shards); };
   });
 }
@@ -277,8 +227,8 @@ void add_update(CLI::App& app, Action& action) {
       ->type_name(kFile);
   begin_group(command, kOptions);
   add_output(command, request->output, "Write this pack (.mtp); - is standard output");
-  add_terrain(command, request->input, request->preparation);
-  add_error_map(command, request->preparation, "elsewhere the pack's bound holds");
+  add_terrain(command, request->source, request->preparation);
+  add_error_map(command, request->options, "elsewhere the pack's bound holds");
   const auto read_scope = [request](const std::string& text) {
     if (text == "everywhere") request->bound_at = BoundScope::kEverywhere;
     if (text == "points") request->bound_at = BoundScope::kTruePlaces;
@@ -287,18 +237,15 @@ void add_update(CLI::App& app, Action& action) {
   add_read(command, "--bound-at points|everywhere", read_scope, "points or everywhere",
            "Keep the pack's bound at posts, or between them, too")
       ->default_str("everywhere if the pack's margins are within the bound, or over obstacles");
-  add_obstacles(command, request->preparation);
-  add_breaklines(command, request->breaklines, "Make edges of all tiles along");
-  add_number(command, "--tile-vertices N", request->tile_vertices, kFewestTileVertices,
-             "Let new tiles have at most N vertices each", uint32_t{kMaxVertices})
+  add_obstacles(command, request->options);
+  add_breaklines(command, request->options, "Make edges of all tiles along");
+  add_named(command, "--tile-vertices N", request->options,
+            "Let new tiles have at most N vertices each")
       ->default_str("as many as the pack states");
-  add_search(command, request->search);
-  add_preparation(command, request->preparation);
-  add_notes(command, *request);
-  command.callback([request, &action] {
-    request->lattice.water_level = request->preparation.water_level;
-    action = [request] { run_update(*request); };
-  });
+  add_search(command, request->options);
+  add_preparation(command, request->preparation, request->options);
+  add_notes(command, request->options);
+  command.callback([request, &action] { action = [request] { run_update(*request); }; });
 }
 
 void add_merge(CLI::App& app, Action& action) {

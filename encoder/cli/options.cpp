@@ -9,7 +9,6 @@
 #include "encoder/cli/definitions.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/import/cell_list.hpp"
-#include "encoder/import/reference.hpp"
 
 namespace microtin::cli {
 namespace {
@@ -59,33 +58,24 @@ bool read_epsg(std::string_view text, uint32_t& horizontal, uint32_t& vertical) 
          (colon == std::string_view::npos || read_code(text.substr(colon + 1), vertical));
 }
 
-// In which units and systems the source's numbers are; they override what its files state.
-void add_reference(CLI::App& command, Preparation& preparation) {
-  Reference& asked = preparation.asked.emplace();
-  add_read(
-      command, "--epsg CODE",
-      [&asked](const std::string& text) {
-        return read_epsg(text, asked.horizontal_epsg, asked.vertical_epsg);
-      },
-      "an EPSG code, or two with a colon, such as 25832 or 25832:7837",
-      "Set the coordinate system: a horizontal EPSG code, or HORIZONTAL:VERTICAL; known codes set "
-      "the units")
-      ->default_str("as the file states");
-  add_read(
-      command, "--units UNIT",
-      [&asked](const std::string& text) { return read_units(text, asked); },
-      "a unit, or two with a colon, such as metre, degree:metre or :foot",
-      "Set the units: of x, y and heights (metre, foot, us-foot), of both (degree:metre), or of "
-      "heights alone (:foot). Lengths in cm, km, yard, fathom and others are converted to metres")
-      ->default_str("as the file or the codes state; heights as x and y");
-  command.add_flag("--depths", asked.depths,
-                   "Negate the source's values: they are depths, which grow downwards");
-}
-
 // The name of an option, and that of its value.
 std::pair<std::string, std::string> split(const std::string& definition) {
   const size_t space = definition.find(' ');
   return {definition.substr(0, space), definition.substr(space + 1)};
+}
+
+// "max_error" of "--max-error".
+std::string parameter_name(const std::string& option) {
+  std::string name = option.substr(2);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+// "quick|balanced|dense".
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : "|") + word;
+  return text;
 }
 
 }  // namespace
@@ -177,15 +167,6 @@ CLI::Option* add_text(CLI::App& command, const std::string& definition, std::str
   return command.add_option(name, text, description)->type_name(value)->default_str("none");
 }
 
-std::string alternatives(const std::vector<std::string>& names) {
-  std::string text;
-  for (size_t i = 0; i < names.size(); ++i) {
-    if (i != 0) text += i + 1 == names.size() ? " or " : ", ";
-    text += names[i];
-  }
-  return text;
-}
-
 bool read_number(std::string_view text, uint32_t& number) {
   return read_all(text, number);
 }
@@ -220,31 +201,93 @@ void add_indirect([[maybe_unused]] CLI::App& command, [[maybe_unused]] Preparati
 #endif
 }
 
-void add_error_map(CLI::App& command, Preparation& preparation, const std::string& elsewhere) {
-  add_text(command, "--error-map FILE", preparation.error_map,
-           "Take the bound of each post or point from a raster of bounds, of the terrain's grid or "
-           "a coarser one, or from polygons with a property max_error (.geojson); " +
-               elsewhere);
-  add_decimal(command, "--route-edge-error METRES", preparation.route_edge_error,
-              "Let the bound grow from that at --route to this at the edges of --route-width")
+CLI::Option* add_named(CLI::App& command, const std::string& definition, encoder::Options& options,
+                       const std::string& description) {
+  const auto [name, value] = split(definition);
+  const NamedOption& option = named_option(parameter_name(name));
+  if (option.flag != nullptr) return command.add_flag(name, options.*option.flag, description);
+  if (option.number != nullptr) {
+    return add_number(command, definition, options.*option.number, option.least, description,
+                      option.most);
+  }
+  if (option.text != nullptr && option.is_allowed == nullptr) {
+    return add_text(command, definition, options.*option.text, description);
+  }
+  const auto read = [&option, &options](const std::string& text) {
+    return !text.empty() && set(option, options, text);
+  };
+  const auto& words = option.words;
+  CLI::Option* const added =
+      add_read(command, option.choice == nullptr ? definition : name + ' ' + joined(words), read,
+               wanted_by(option), description);
+  return option.choice == nullptr ? added : added->default_str(words[option.choice->get(options)]);
+}
+
+void add_error_map(CLI::App& command, encoder::Options& options, const std::string& elsewhere) {
+  add_named(command, "--error-map FILE", options,
+            "Take the bound of each post or point from a raster of bounds, of the terrain's grid "
+            "or a coarser one, or from polygons with a property max_error (.geojson); " +
+                elsewhere);
+  add_named(command, "--route-edge-error METRES", options,
+            "Let the bound grow from that at --route to this at the edges of --route-width")
       ->default_str("the same bound");
 }
 
-void add_breaklines(CLI::App& command, std::string& path, const std::string& description) {
-  add_text(command, "--breaklines FILE", path,
-           description +
-               " the lines of this file: GeoJSON (.geojson), or text with x, y and maybe z on each "
-               "line and an empty line between lines");
+void add_breaklines(CLI::App& command, encoder::Options& options, const std::string& description) {
+  add_named(command, "--breaklines FILE", options,
+            description +
+                " the lines of this file: GeoJSON (.geojson), or text with x, y and maybe z on "
+                "each line and an empty line between lines");
 }
 
-void add_obstacles(CLI::App& command, Preparation& preparation) {
-  add_text(command, "--obstacles FILE", preparation.obstacles,
-           "Raise the terrain to the obstacles of this GeoJSON file: points, lines and polygons "
-           "with a top or a height above the ground, and a radius in metres. The surface is "
-           "nowhere below them or the terrain: --never-below and --bound-at everywhere hold");
+void add_obstacles(CLI::App& command, encoder::Options& options) {
+  add_named(command, "--obstacles FILE", options,
+            "Raise the terrain to the obstacles of this GeoJSON file: points, lines and polygons "
+            "with a top or a height above the ground, and a radius in metres. The surface is "
+            "nowhere below them or the terrain: --never-below and --bound-at everywhere hold");
 }
 
-void add_preparation(CLI::App& command, Preparation& preparation) {
+namespace {
+
+// In which units and systems the source's numbers are; they override what its files state.
+void add_reference(CLI::App& command, encoder::Options& options) {
+  add_read(
+      command, "--epsg CODE",
+      [&options](const std::string& text) {
+        return read_epsg(text, options.horizontal_epsg, options.vertical_epsg);
+      },
+      "an EPSG code, or two with a colon, such as 25832 or 25832:7837",
+      "Set the coordinate system: a horizontal EPSG code, or HORIZONTAL:VERTICAL; known codes set "
+      "the units")
+      ->default_str("as the file states");
+  add_named(command, "--units UNIT", options,
+            "Set the units: of x, y and heights (metre, foot, us-foot), of both (degree:metre), or "
+            "of heights alone (:foot). Lengths in cm, km, yard, fathom and others are converted to "
+            "metres")
+      ->default_str("as the file or the codes state; heights as x and y");
+  add_named(command, "--depths", options,
+            "Negate the source's values: they are depths, which grow downwards");
+}
+
+// What lies outside of an area, and far from a route, is left out.
+void add_extent(CLI::App& command, encoder::Options& options) {
+  add_named(command, "--area FILE", options,
+            "Keep only what lies in the polygons of this GeoJSON file, or on their borders; all "
+            "posts outside are void");
+  CLI::Option* const route =
+      add_named(command, "--route FILE", options,
+                "Keep only what lies near the lines of this GeoJSON file, and in the area of "
+                "--area; all posts outside are void");
+  CLI::Option* const width = add_named(command, "--route-width METRES", options,
+                                       "Keep this width around a route, half on each side")
+                                 ->default_str("none");
+  route->needs(width);
+  width->needs(route);
+}
+
+}  // namespace
+
+void add_preparation(CLI::App& command, Preparation& preparation, encoder::Options& options) {
   begin_group(command, "How the terrain is read");
   const auto read = [&preparation](const std::string& text) {
     return read_classes(text, preparation.classes.emplace());
@@ -252,23 +295,11 @@ void add_preparation(CLI::App& command, Preparation& preparation) {
   add_read(command, "--classes LIST", read, "a list such as 2,9, or all",
            "Read the points of these classes of .las and .laz files, such as 2,9, or all")
       ->default_str("ground, 2; without ground all but noise, 7 and 18");
-  add_reference(command, preparation);
+  add_reference(command, options);
   command.add_flag("--gridded", preparation.gridded,
                    "Read points that are the posts of a raster as that raster");
   add_indirect(command, preparation);
-  add_text(
-      command, "--area FILE", preparation.area,
-      "Keep only what lies in the polygons of this GeoJSON file, or on their borders; all posts "
-      "outside are void");
-  CLI::Option* const route = add_text(
-      command, "--route FILE", preparation.route,
-      "Keep only what lies near the lines of this GeoJSON file, and in the area of --area; "
-      "all posts outside are void");
-  CLI::Option* const width = add_decimal(command, "--route-width METRES", preparation.route_width,
-                                         "Keep this width around a route, half on each side")
-                                 ->default_str("none");
-  route->needs(width);
-  width->needs(route);
+  add_extent(command, options);
 #ifdef MICROTIN_WITH_GDAL
   add_number(command, "--band N", preparation.band, 1u,
              "Read heights from this band of a file that GDAL reads")

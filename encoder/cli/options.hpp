@@ -15,6 +15,7 @@
 
 #include "encoder/import/prepared_terrain.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/product/named_options.hpp"
 
 namespace microtin::cli {
 
@@ -81,9 +82,6 @@ CLI::Option* add_height(CLI::App& command, const std::string& definition,
 CLI::Option* add_decimal(CLI::App& command, const std::string& definition,
                          std::optional<Decimal>& value, const std::string& description);
 
-// "quick, balanced or dense".
-std::string alternatives(const std::vector<std::string>& names);
-
 // One of some names for values, of which the help page prints all and the default.
 template <class Value>
 CLI::Option* add_choice(CLI::App& command, const std::string& name, Value& value,
@@ -107,19 +105,24 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, Value& value
   return add_read(command, definition, read, alternatives(names), description)->default_str(usual);
 }
 
+// An option of the library's table, "--max-error METRES", which has its values, its limits and its
+// default. The definition of a flag, and of a choice, has no name of a value.
+CLI::Option* add_named(CLI::App& command, const std::string& definition, encoder::Options& options,
+                       const std::string& description);
+
 void add_indirect(CLI::App& command, Preparation& preparation);
 
 // The option --error-map; `elsewhere` ends the description.
-void add_error_map(CLI::App& command, Preparation& preparation, const std::string& elsewhere);
+void add_error_map(CLI::App& command, encoder::Options& options, const std::string& elsewhere);
 
 // The option --breaklines.
-void add_breaklines(CLI::App& command, std::string& path, const std::string& description);
+void add_breaklines(CLI::App& command, encoder::Options& options, const std::string& description);
 
 // The option --obstacles.
-void add_obstacles(CLI::App& command, Preparation& preparation);
+void add_obstacles(CLI::App& command, encoder::Options& options);
 
 // For encoding, and alike for every comparison with the source.
-void add_preparation(CLI::App& command, Preparation& preparation);
+void add_preparation(CLI::App& command, Preparation& preparation, encoder::Options& options);
 
 }  // namespace microtin::cli
 

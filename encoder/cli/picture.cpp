@@ -17,6 +17,7 @@
 #include "encoder/picture/page.hpp"
 #include "encoder/picture/render.hpp"
 #include "encoder/product/document.hpp"
+#include "encoder/product/public_options.hpp"
 #include "encoder/terrain/fractal.hpp"
 
 namespace microtin::cli {
@@ -163,7 +164,8 @@ void draw(const RenderRequest& request, const Portrait& portrait, const Comparis
 }  // namespace
 
 void run_render(const RenderRequest& request) {
-  std::vector<std::string> inputs = files_of(request.source, request.preparation);
+  const Preparation preparation = preparation_of(request.options, request.preparation);
+  std::vector<std::string> inputs = files_of(request.source, preparation);
   inputs.push_back(request.input);
   refuse_overwriting(inputs, request.output);
   expect_picture(request);
@@ -176,7 +178,7 @@ void run_render(const RenderRequest& request) {
     draw(request, portrait, nullptr);
     return;
   }
-  const Original original(document, request.source, request.preparation);
+  const Original original(document, request.source, preparation);
   const SurfaceModel& model = portrait.model;
   const Comparison comparison{
       original.raster() != nullptr ? cell_of(*original.raster(), model)

@@ -7,6 +7,7 @@
 #include "encoder/files/output.hpp"
 #include "encoder/import/breaklines.hpp"
 #include "encoder/product/document.hpp"
+#include "encoder/product/public_options.hpp"
 #include "encoder/verify/everywhere.hpp"
 
 namespace microtin::cli {
@@ -139,12 +140,13 @@ void expect_kept(const Original::Judgement& judgement, const std::string& input)
 
 void run_verify(const VerifyRequest& request) {
   const std::string& input = request.input;
-  std::vector<std::string> inputs = files_of(request.source, request.preparation);
+  const Preparation preparation = preparation_of(request.options, request.preparation);
+  std::vector<std::string> inputs = files_of(request.source, preparation);
   inputs.push_back(input);
-  if (!request.breaklines.empty()) inputs.push_back(request.breaklines);
+  if (!request.options.breaklines.empty()) inputs.push_back(request.options.breaklines);
   refuse_overwriting(inputs, "-");
   const Document document(input);
-  const Original original(document, request.source, request.preparation);
+  const Original original(document, request.source, preparation);
   ProgressBar bar;
   const Original::Judgement judgement = original.judge(bar.progress());
   JsonObject report = report_of(judgement, document.metadata(), original.cloud() != nullptr);
@@ -152,8 +154,8 @@ void run_verify(const VerifyRequest& request) {
     report.emplace_back("source", json(original.raster()->selection));
   }
   std::optional<FoundBreaklines> lines;
-  if (!request.breaklines.empty()) {
-    lines = original.breaklines(read_breaklines(request.breaklines).lines);
+  if (!request.options.breaklines.empty()) {
+    lines = original.breaklines(read_breaklines(request.options.breaklines).lines);
     report.emplace_back("breaklines", text_of(*lines, document.metadata().placement));
   }
   add_warnings(report, original);

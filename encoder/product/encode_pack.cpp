@@ -160,11 +160,6 @@ PackContent encode_pack(const RasterReader& raster, const EncodeOptions& asked,
   return pack;
 }
 
-void write_pack(const PackContent& pack, StreamSpool& streams, OutputFile& out) {
-  out.write(write_pack_head(pack));
-  streams.copy_to(out);
-}
-
 namespace {
 
 // The largest of 1, 2, 5 times a power of ten that is not larger.
@@ -294,13 +289,6 @@ std::vector<ShardPlan> plan_shards(const RasterReader& raster, const EncodeOptio
                       static_cast<uint32_t>(tiles * (i + 1) / parts - 1)}});
   }
   return plans;
-}
-
-PackReport join_shards(const std::vector<std::string>& paths, StreamSpool& streams,
-                       OutputFile& out) {
-  const PackContent pack = merge_shards(paths, streams);
-  write_pack(pack, streams, out);
-  return report_of(pack);
 }
 
 }  // namespace microtin::product

@@ -43,8 +43,6 @@ uint64_t adapter_ram(const PackReport& pack);
 PackContent encode_pack(const RasterReader& raster, const EncodeOptions& asked,
                         StreamSpool& streams, const Progress& progress);
 
-void write_pack(const PackContent& pack, StreamSpool& streams, OutputFile& out);
-
 // The result of encoding points as a pack.
 struct EncodedPoints {
   std::vector<uint8_t> bytes;
@@ -78,11 +76,6 @@ struct ShardPlan {
 
 std::vector<ShardPlan> plan_shards(const RasterReader& raster, const EncodeOptions& options,
                                    uint32_t shards, const Progress& progress);
-
-// Joins shards to the pack that a single run makes. Throws Error naming the shard that does not
-// fit, and if tiles are missing.
-PackReport join_shards(const std::vector<std::string>& paths, StreamSpool& streams,
-                       OutputFile& out);
 
 // As the option --shard has it.
 std::string range_text(TileRange range);

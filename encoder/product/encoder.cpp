@@ -8,19 +8,16 @@
 #include <variant>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/text.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/import/bound_map.hpp"
-#include "encoder/import/breaklines.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/prepared_terrain.hpp"
 #include "encoder/import/reference.hpp"
-#include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
-#include "encoder/product/pack_parts.hpp"
+#include "encoder/product/made_pack.hpp"
+#include "encoder/product/public_options.hpp"
 #include "encoder/terrain/clouds.hpp"
-#include "encoder/terrain/raster_scan.hpp"
 #include "encoder/terrain/voids.hpp"
 
 namespace microtin::encoder {
@@ -112,106 +109,8 @@ class KeptRaster : public terrain::RasterReader {
   const terrain::Raster& raster_;
 };
 
-std::optional<exact::Decimal> decimal_of(const std::string& name, const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  const std::optional<exact::Decimal> value = exact::parse_decimal(text);
-  expect(value && value->mantissa >= 0,
-         base::parameter(name) + ": '" + text + "' is not allowed; use a decimal number from 0 up");
-  return value;
-}
-
-fit::Search search_of(SearchEffort effort) {
-  switch (effort) {
-    case SearchEffort::kFast:
-      return fit::Search::kFast;
-    case SearchEffort::kBest:
-      return fit::Search::kBest;
-    case SearchEffort::kNormal:
-      break;
-  }
-  return fit::Search::kNormal;
-}
-
-microtin::Coding coding_of(encoder::Coding coding) {
-  switch (coding) {
-    case encoder::Coding::kQuick:
-      return microtin::Coding::kQuick;
-    case encoder::Coding::kDense:
-      return microtin::Coding::kDense;
-    case encoder::Coding::kBalanced:
-      break;
-  }
-  return microtin::Coding::kBalanced;
-}
-
-terrain::BoundScope places_of(BoundAt bound_at) {
-  switch (bound_at) {
-    case BoundAt::kLattice:
-      return terrain::BoundScope::kLattice;
-    case BoundAt::kEverywhere:
-      return terrain::BoundScope::kEverywhere;
-    case BoundAt::kPoints:
-      break;
-  }
-  return terrain::BoundScope::kTruePlaces;
-}
-
-terrain::DuplicateRule rule_of(Duplicates duplicates) {
-  switch (duplicates) {
-    case Duplicates::kLowest:
-      return terrain::DuplicateRule::kLowest;
-    case Duplicates::kHighest:
-      return terrain::DuplicateRule::kHighest;
-    case Duplicates::kMean:
-      return terrain::DuplicateRule::kMean;
-    case Duplicates::kMiddle:
-      break;
-  }
-  return terrain::DuplicateRule::kMiddle;
-}
-
-terrain::SurfaceKind surface_of(SurfaceKind surface) {
-  return static_cast<terrain::SurfaceKind>(surface);  // the same numbers, those of the note
-}
-
-void expect_range(const char* name, uint32_t value, uint32_t least, uint32_t most) {
-  expect(value == 0 || (value >= least && value <= most),
-         base::parameter(name) + ": use " + std::to_string(least) + " to " + std::to_string(most) +
-             ", or 0 for the default");
-}
-
 void expect_default(const char* name, bool is_default, const char* kind) {
   expect(is_default, base::parameter(name) + " is an option of " + kind + "; leave it out");
-}
-
-void check_numbers(const Options& options) {
-  expect_range("max_degree", options.max_degree, kMinDegree, kMaxDegree);
-  expect_range("max_vertices", options.max_vertices, 3, kMaxVertices);
-  expect_range("tile_vertices", options.tile_vertices, pack::kFewestTileVertices, kMaxVertices);
-}
-
-void expect_text(const char* name, const std::string& text, bool holds, const char* wanted) {
-  expect(text.empty() || holds,
-         base::parameter(name) + ": '" + text + "' is not allowed; use " + wanted);
-}
-
-terrain::SourceNotes notes_of(const Options& options) {
-  expect_text("date", options.date, base::is_iso_date(options.date),
-              "a date such as 2026, 2026-11 or 2026-11-21");
-  expect_text("valid", options.valid, base::is_iso_validity(options.valid),
-              "dates such as 2024-01/2025-06, 2024-01/.. or ../2025");
-  terrain::SourceNotes notes{options.source_name,
-                             options.date,
-                             options.lineage,
-                             options.attribution,
-                             options.license,
-                             options.valid,
-                             terrain::parse_epoch(options.epoch),
-                             terrain::parse_source_accuracy(options.source_accuracy)};
-  expect_text("epoch", options.epoch, notes.epoch.has_value(), "a year such as 2020.5");
-  expect_text("source_accuracy", options.source_accuracy, notes.source_accuracy.has_value(),
-              "LE90, LE95 or RMSE and a number, such as 'LE90 4'");
-  return notes;
 }
 
 void check_stream_options(const Options& options, bool has_map) {
@@ -235,59 +134,10 @@ void check_pack_options(const Options& options, bool has_map) {
 }
 
 product::EncodeOptions options_of(const Options& options) {
-  check_numbers(options);
-  product::EncodeOptions all;
-  all.lattice.max_error = decimal_of("max_error", options.max_error);
-  all.lattice.z_step = decimal_of("z_step", options.z_step);
-  all.lattice.xy_step = decimal_of("xy_step", options.xy_step);
-  all.lattice.never_below = options.never_below;
-  all.lattice.duplicates = rule_of(options.duplicates);
-  all.max_vertices = options.max_vertices;
-  all.max_bytes = options.max_bytes;
-  all.tile_vertices = options.tile_vertices;
-  all.tile_size = options.tile_size;
-  all.lattice.bound_at = places_of(options.bound_at);
-  all.search = search_of(options.effort);
-  all.effort = {options.max_degree, coding_of(options.coding)};
-  all.surface = surface_of(options.surface);
-  all.digest = options.digest;
-  all.phases = options.phases;
-  all.notes = notes_of(options);
-  if (!options.breaklines.empty()) {
-    importing::BreaklineFile read = importing::read_breaklines(options.breaklines);
-    all.lattice.breaklines = std::move(read.lines);
-    all.lattice.line_classes = std::move(read.classes);
-  }
+  product::EncodeOptions all = product::options_of(options);
+  product::take_breaklines(options, all);
   if (!options.obstacles.empty()) product::imply_obstacles(all);
   return all;
-}
-
-importing::Preparation preparation_of(const Options& options) {
-  expect(options.route.empty() == options.route_width.empty(), base::parameter("route") + " and " +
-                                                                   base::parameter("route_width") +
-                                                                   " go together; set both");
-  expect(options.route_edge_error.empty() || !options.route.empty(),
-         base::parameter("route_edge_error") + " needs " + base::parameter("route"));
-  importing::Preparation preparation;
-  preparation.max_error = decimal_of("max_error", options.max_error);
-  preparation.error_map = options.error_map;
-  preparation.area = options.area;
-  preparation.route = options.route;
-  preparation.route_width = decimal_of("route_width", options.route_width);
-  preparation.route_edge_error = decimal_of("route_edge_error", options.route_edge_error);
-  preparation.obstacles = options.obstacles;
-  return preparation;
-}
-
-terrain::Reference asked_of(const Options& options) {
-  terrain::Reference asked;
-  asked.horizontal_epsg = options.horizontal_epsg;
-  asked.vertical_epsg = options.vertical_epsg;
-  asked.depths = options.depths;
-  expect(options.units.empty() || importing::read_units(options.units, asked),
-         base::parameter("units") + ": '" + options.units +
-             "' is not allowed; use a unit, or two with a colon, such as metre or degree:foot");
-  return asked;
 }
 
 // The raster of bounds that the caller gave, unless a file replaces it.
@@ -298,12 +148,11 @@ std::optional<importing::BoundMap> own_map(const SourceTerrain::Content& content
                              std::make_unique<KeptRaster>(*content.bounds), preparation.max_error);
 }
 
-// How files are read, in the units that are asked for.
+// How files are read.
 importing::Preparation preparation_of(const std::vector<std::string>& files,
                                       const Options& options) {
-  importing::Preparation preparation = preparation_of(options);
+  importing::Preparation preparation = product::preparation_of(options);
   preparation.more_files.assign(files.begin() + 1, files.end());
-  preparation.asked = asked_of(options);
   return preparation;
 }
 
@@ -322,10 +171,10 @@ class SettledTerrain {
       reference_ = terrain::reference_of(*changed_);
       return;
     }
+    const importing::Preparation preparation = product::preparation_of(options);
     const importing::SettledReference settled =
-        importing::settle(terrain::reference_of(*source_), asked_of(options));
+        importing::settle(terrain::reference_of(*source_), *preparation.asked);
     reference_ = settled.reference;
-    const importing::Preparation preparation = preparation_of(options);
     const bool is_plain = importing::is_plain(settled.conversion);
     const bool has_files = !options.error_map.empty() || !options.area.empty() ||
                            !options.route.empty() || !options.obstacles.empty();
@@ -351,36 +200,33 @@ class TiledTerrain {
   TiledTerrain(const SourceTerrain::Content& content, const Options& options) {
     if (content.source == nullptr) {
       const importing::Preparation preparation = preparation_of(content.files, options);
-      source_ =
+      opened_ =
           importing::prepared_source(content.files[0], preparation, own_map(content, preparation));
-      if (auto* const raster = std::get_if<std::unique_ptr<terrain::RasterReader>>(&source_)) {
-        raster_ = std::move(*raster);
-      } else {
-        cloud_ = &std::get<terrain::PointCloud>(source_);
-      }
+      source_ = product::source_of(opened_);
       return;
     }
     settled_.emplace(content, options);
     if (const auto* const raster = std::get_if<terrain::Raster>(&settled_->source())) {
       raster_ = std::make_unique<KeptRaster>(*raster);
+      source_ = raster_.get();
     } else {
-      cloud_ = &std::get<terrain::PointCloud>(settled_->source());
+      source_ = &std::get<terrain::PointCloud>(settled_->source());
     }
   }
 
-  // Null: there are points.
-  const terrain::RasterReader* raster() const { return raster_.get(); }
-  const terrain::PointCloud& cloud() const { return *cloud_; }
+  const product::PackSource& source() const { return source_; }
   const terrain::Reference& reference() const {
     if (settled_) return settled_->reference();
-    return raster_ ? raster_->frame().reference : cloud_->reference;
+    const auto* const cloud = std::get_if<const terrain::PointCloud*>(&source_);
+    if (cloud != nullptr) return (*cloud)->reference;
+    return std::get<const terrain::RasterReader*>(source_)->frame().reference;
   }
 
  private:
-  importing::OpenSource source_;
+  importing::OpenSource opened_;
   std::optional<SettledTerrain> settled_;
-  std::unique_ptr<terrain::RasterReader> raster_;
-  const terrain::PointCloud* cloud_ = nullptr;
+  std::unique_ptr<terrain::RasterReader> raster_;  // in memory
+  product::PackSource source_;
 };
 
 // Ends the work by an exception when the caller cancels it.
@@ -466,24 +312,6 @@ Report report_of(const product::PackReport& pack, uint64_t samples) {
   return report;
 }
 
-Report encode_posts(const terrain::RasterReader& raster, const product::EncodeOptions& options,
-                    const std::string& path, files::OutputFile& out, const Callbacks& callbacks) {
-  files::StreamSpool streams(path);
-  const pack::PackContent pack =
-      product::encode_pack(raster, options, streams, progress_of(callbacks));
-  product::write_pack(pack, streams, out);
-  return report_of(product::report_of(pack), 0);
-}
-
-Report encode_points(const terrain::PointCloud& cloud, const product::EncodeOptions& options,
-                     files::OutputFile& out) {
-  const product::EncodedPoints made = product::encode_pack(cloud, options);
-  out.write(made.bytes);
-  Report report = report_of(made.report, made.points);
-  add_true_places(report, made.true_places);
-  return report;
-}
-
 bool has_map(const SourceTerrain& terrain, const Options& options) {
   return !options.error_map.empty() || terrain.content().bounds != nullptr;
 }
@@ -520,25 +348,17 @@ std::vector<std::string> warnings_on(const SettledTerrain& terrain) {
   return warnings;
 }
 
-// Reads the raster once.
-void add_scan(Report& report, const TiledTerrain& terrain) {
-  const terrain::RasterReader& raster = *terrain.raster();
-  const terrain::RasterScan scanned = terrain::scan(raster, {}, false, {});
-  report.samples = scanned.posts;
-  report.warnings = warnings_on(
-      terrain.reference(), terrain::warning_on_fill(scanned.extremes, raster.frame().decimals));
-  warn_of_obstacles(scanned.mended.obstacles_elsewhere, report.warnings);
+// Warnings on the terrain of a pack.
+void add_warnings(Report& report, const TiledTerrain& terrain, const product::SourceFacts& found) {
+  report.warnings = warnings_on(terrain.reference(), found.fill);
+  if (!found.grid.empty()) report.warnings.push_back(found.grid);
+  if (found.scanned) warn_of_obstacles(found.scanned->mended.obstacles_elsewhere, report.warnings);
 }
 
 // The options of a pack, or of a shard, of a terrain.
 product::EncodeOptions pack_options_of(const SourceTerrain& terrain, const Options& options) {
   check_pack_options(options, has_map(terrain, options));
   return options_of(options);
-}
-
-const terrain::RasterReader& posts_of(const TiledTerrain& terrain) {
-  expect(terrain.raster() != nullptr, "only packs of rasters have shards, and these are points");
-  return *terrain.raster();
 }
 
 }  // namespace
@@ -596,14 +416,15 @@ Report encode_pack(const SourceTerrain& terrain, const Options& options, const s
   const TiledTerrain tiled(terrain.content(), options);
   all.reference = tiled.reference();
   files::OutputFile out(path);
-  Report report;
-  if (tiled.raster() != nullptr) {
-    report = encode_posts(*tiled.raster(), all, path, out, callbacks);
-    add_scan(report, tiled);
-  } else {
-    report = encode_points(tiled.cloud(), all, out);
-    report.warnings = warnings_on(tiled.reference(), tiled.cloud());
+  product::MadePack pack = product::made_pack(tiled.source(), all, path, progress_of(callbacks));
+  pack.write(out);
+  const product::SourceFacts facts = product::facts_of(tiled.source());
+  Report report = report_of(pack.report(), facts.scanned ? facts.scanned->posts : 0);
+  if (pack.points()) {
+    report.samples = pack.points()->points;
+    add_true_places(report, pack.points()->true_places);
   }
+  add_warnings(report, tiled, facts);
   out.commit();
   return report;
 }
@@ -615,8 +436,8 @@ std::vector<Shard> plan_shards(const SourceTerrain& terrain, const Options& opti
   const TiledTerrain tiled(terrain.content(), options);
   all.reference = tiled.reference();
   std::vector<Shard> shards;
-  for (const product::ShardPlan& plan :
-       product::plan_shards(posts_of(tiled), all, count, progress_of(callbacks))) {
+  for (const product::ShardPlan& plan : product::plan_shards(
+           product::raster_with_shards(tiled.source()), all, count, progress_of(callbacks))) {
     shards.push_back({plan.tile_size, to_string(plan.z_step), plan.tiles.first, plan.tiles.last});
   }
   return shards;
@@ -632,8 +453,9 @@ Report encode_shard(const SourceTerrain& terrain, const Options& options, const 
   const TiledTerrain tiled(terrain.content(), planned);
   all.reference = tiled.reference();
   files::OutputFile out(path);
-  const product::ShardReport made = product::encode_shard(
-      posts_of(tiled), all, {shard.first_tile, shard.last_tile}, out, progress_of(callbacks));
+  const product::ShardReport made =
+      product::encode_shard(product::raster_with_shards(tiled.source()), all,
+                            {shard.first_tile, shard.last_tile}, out, progress_of(callbacks));
   out.commit();
   Report report;
   report.vertices = made.vertices;
@@ -645,8 +467,9 @@ Report encode_shard(const SourceTerrain& terrain, const Options& options, const 
 Report merge_packs(const std::vector<std::string>& parts, const std::string& path) {
   expect(!parts.empty(), "no shard or pack is named");
   files::OutputFile out(path);
-  files::StreamSpool streams(path);
-  Report report = report_of(product::merge_parts(parts, streams, out), 0);
+  product::MadePack pack = product::merged_pack(parts, path);
+  pack.write(out);
+  Report report = report_of(pack.report(), 0);
   out.commit();
   return report;
 }

@@ -264,12 +264,4 @@ PackContent join_packs(const std::vector<std::string>& paths, StreamSpool& strea
   return Joined(parts).take(streams);
 }
 
-PackReport merge_parts(const std::vector<std::string>& paths, StreamSpool& streams,
-                       OutputFile& out) {
-  if (!is_pack(*open_file(paths[0]))) return join_shards(paths, streams, out);
-  const PackContent pack = join_packs(paths, streams);
-  write_pack(pack, streams, out);
-  return report_of(pack);
-}
-
 }  // namespace microtin::product

@@ -25,11 +25,6 @@ PackContent cut_pack(const std::string& path, const Extent& extent, StreamSpool&
 // with the first, also if borders differ.
 PackContent join_packs(const std::vector<std::string>& paths, StreamSpool& streams);
 
-// Joins shards, or packs, by what the first file is, and writes the pack. Throws Error as
-// join_shards and join_packs do.
-PackReport merge_parts(const std::vector<std::string>& paths, StreamSpool& streams,
-                       OutputFile& out);
-
 }  // namespace microtin::product
 
 #endif

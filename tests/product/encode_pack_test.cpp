@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A pack whose tiles are planned again, since one was too large, is the one with tiles of that
 // size.
-#include "encoder/product/encode_pack.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
+#include "encoder/product/made_pack.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/packs.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -25,12 +25,11 @@ RasterInMemory raster_in_memory() {
 std::vector<uint8_t> written(const product::EncodeOptions& options, uint32_t& steps) {
   const TemporaryFolder folder;
   const RasterInMemory raster = raster_in_memory();
-  StreamSpool streams(folder / "pack");
-  const PackContent pack = product::encode_pack(raster, options, streams, {});
+  product::MadePack pack = product::made_pack(&raster, options, folder / "pack", {});
   OutputFile out(folder / "pack");
-  product::write_pack(pack, streams, out);
+  pack.write(out);
   out.commit();
-  steps = pack.grid.width;
+  steps = pack.report().grid.width;
   std::vector<uint8_t> bytes = bytes_of_file(folder / "pack");
   const Verification found = verify(PackFile(bytes), raster, options.lattice.max_error);
   CHECK(found.within_bound);
