@@ -30,11 +30,6 @@ Survey survey_of_vertices(const TiledRaster& tiled, const EverywhereBound& bound
   return survey_of(tiled, raster, options);
 }
 
-Sample fixed_sample(Point place, int16_t step) {
-  const int32_t height = step * 65536;
-  return {place, height, height, height};
-}
-
 }  // namespace
 
 void pin_height(Sample& sample) {

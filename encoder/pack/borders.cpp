@@ -441,8 +441,8 @@ void pin_corners(const KeptTiles& kept, const TileBox& line, std::vector<LinePos
     if (!on_line[post].sample) continue;
     const auto height = kept.height_at(post_of(line, place_on_line(*on_line[post].sample)));
     if (!height) continue;
-    const int32_t pinned = *height * 65536;
-    on_line[post] = {Sample{on_line[post].sample->place, pinned, pinned, pinned}, true, pinned};
+    const Sample pinned = fixed_sample(on_line[post].sample->place, *height);
+    on_line[post] = {pinned, true, pinned.height};
   }
 }
 

@@ -54,8 +54,7 @@ Survey PointTiles::survey_of(uint32_t tile) const {
     survey.samples.push_back({place, sample.height, sample.lowest, sample.highest});
   }
   for (const auto& [place, z] : borders_.of_tile(tile)) {
-    const int32_t height = z * 65536;
-    survey.samples.push_back({place, height, height, height});
+    survey.samples.push_back(fixed_sample(place, z));
     survey.fixed.push_back(place);
   }
   std::sort(survey.samples.begin(), survey.samples.end(),

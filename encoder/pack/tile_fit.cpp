@@ -33,9 +33,8 @@ Survey survey_of_tile(const TiledRaster& tiled, const TilePosts& posts,
     if (!sides.shares(sample.place)) survey.samples.push_back(sample);
   }
   const auto own = static_cast<std::ptrdiff_t>(survey.samples.size());
-  for (const auto& [place, step] : shared) {
-    const int32_t height = step * 65536;
-    survey.samples.push_back({place, height, height, height});
+  for (const auto& [place, z] : shared) {
+    survey.samples.push_back(fixed_sample(place, z));
     survey.fixed.push_back(place);
   }
   std::inplace_merge(survey.samples.begin(), survey.samples.begin() + own, survey.samples.end(),

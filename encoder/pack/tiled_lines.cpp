@@ -51,10 +51,6 @@ struct Stretch {
   std::vector<BorderSite> sites;
 };
 
-double nearest(double coordinate) {
-  return std::floor(coordinate + 0.5);
-}
-
 // Finds the stretches of a line along an axis.
 class StretchSearch {
  public:
@@ -98,7 +94,7 @@ class StretchSearch {
     Stretch stretch;
     for (const Knot& knot : knots_) {
       if (!needs_vertex(knot)) continue;
-      stretch.sites.push_back({knot.along, knot.place, nearest(axis_.along(knot.place))});
+      stretch.sites.push_back({knot.along, knot.place, nearest_step(axis_.along(knot.place))});
     }
     if (!stretch.sites.empty()) {
       stretch.from = knots_.front().along;

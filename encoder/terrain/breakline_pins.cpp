@@ -176,8 +176,7 @@ std::vector<double> heights_at(const LatticeLine& line, LinePlace vertex, double
   const LatticeLine::Range near = line.between(along - kNear, along + kNear);
   for (std::size_t i = near.first; i < near.last; ++i) {
     const LinePlace place = line.places()[i];
-    const bool moves_there =
-        std::floor(place.x + 0.5) == vertex.x && std::floor(place.y + 0.5) == vertex.y;
+    const bool moves_there = nearest_step(place.x) == vertex.x && nearest_step(place.y) == vertex.y;
     if (moves_there) heights.push_back(place.z);
   }
   return heights;

@@ -40,7 +40,7 @@ class LineGroundTest {
 
   bool holds(LinePlace place) const {
     constexpr double kMost = kLatticeMax;
-    const double x = std::floor(place.x + 0.5), y = std::floor(place.y + 0.5);
+    const double x = nearest_step(place.x), y = nearest_step(place.y);
     if (x < 0 || y < 0 || x > kMost || y > kMost) return false;
     return is_in_hull(nearest_position(place)) && !is_near_void(place);
   }
@@ -213,10 +213,10 @@ double share_of(LinePlace p, LinePlace a, LinePlace b) {
 }
 
 Point nearest_position(LinePlace place) {
-  const auto nearest = [](double at) {
-    return static_cast<uint16_t>(std::clamp(std::floor(at + 0.5), 0.0, double{kLatticeMax}));
+  const auto on_lattice = [](double at) {
+    return static_cast<uint16_t>(std::clamp(nearest_step(at), 0.0, double{kLatticeMax}));
   };
-  return {nearest(place.x), nearest(place.y)};
+  return {on_lattice(place.x), on_lattice(place.y)};
 }
 
 LineGround line_ground_of(const Survey& survey, double x_spacing, double y_spacing) {

@@ -4,6 +4,7 @@
 #ifndef MICROTIN_ENCODER_TERRAIN_BREAKLINES_HPP
 #define MICROTIN_ENCODER_TERRAIN_BREAKLINES_HPP
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -71,6 +72,11 @@ inline LinePlace place_of(Point p) {
 
 // Where on the segment from a to b a place is nearest: 0 at a, 1 at b.
 double share_of(LinePlace p, LinePlace a, LinePlace b);
+
+// The lattice step nearest to a coordinate, halves up; it may be off the lattice.
+inline double nearest_step(double coordinate) {
+  return std::floor(coordinate + 0.5);
+}
 
 // The lattice position nearest to a place, halves up.
 Point nearest_position(LinePlace place);

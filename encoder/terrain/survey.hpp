@@ -29,6 +29,12 @@ inline int32_t middle_of(const Sample& sample) {
   return static_cast<int32_t>((int64_t{sample.lowest} + sample.highest) / 2);
 }
 
+// A sample that has a vertex's height, in z steps, and no other.
+inline Sample fixed_sample(Point place, int16_t z) {
+  const int32_t height = z * 65536;
+  return {place, height, height, height};
+}
+
 struct Survey {
   std::vector<Sample> samples;  // distinct places, in lexicographic order (x, then y)
   std::vector<Point> voids;     // raster posts without a height, in lexicographic order

@@ -75,8 +75,8 @@ class NearbyEdges {
 
   template <class Visit>
   static void visit_positions(LinePlace place, const Visit& visit) {
-    const int column = static_cast<int>(std::floor(place.x + 0.5)),
-              row = static_cast<int>(std::floor(place.y + 0.5));
+    const int column = static_cast<int>(nearest_step(place.x)),
+              row = static_cast<int>(nearest_step(place.y));
     for (int x = std::max(column - 1, 0); x <= std::min(column + 1, kLatticeMax + 0); ++x) {
       for (int y = std::max(row - 1, 0); y <= std::min(row + 1, kLatticeMax + 0); ++y) visit(x, y);
     }
