@@ -297,7 +297,7 @@ class Options(unittest.TestCase):
     def test_no_keyword_is_without_a_row(self):
         known = set(self.ROWS) | self.OF_PACKS
         numbers = {"max_degree", "vertical_epsg", "max_vertices", "max_bytes", "tile_vertices", "tile_size"}
-        keywords = set(inspect.signature(microtin._options).parameters) | numbers
+        keywords = set(inspect.signature(microtin._options.options_of).parameters) | numbers
         self.assertEqual(keywords - self.ELSEWHERE, known)
         in_c = {name for name, _ in microtin._library.Options._fields_}
         self.assertEqual(in_c - {"size", "progress", "context"} | {"crs"}, known | {"horizontal_epsg", "error_map"} | self.FILES)

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: MIT
+"""Terrains to be encoded: arrays, points and files."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from typing import Any, Callable, List, Optional, Sequence, Tuple, Union
+
+import numpy
+from numpy.typing import ArrayLike
+
+from . import _library
+from ._library import Error, library
+from ._options import Crs, ErrorMap, Files, Path, epsg_of, wkt_of
+
+
+class Source:
+    """A terrain to be encoded, until the end of a with statement."""
+
+    def __init__(self, make: Callable[..., None], *content: Any) -> None:
+        self.pointer = ctypes.c_void_p()
+        make(*content, self.pointer)
+
+    def __enter__(self) -> "Source":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        library.microtin_source_free(self.pointer)
+
+
+def _transform_of(transform: Optional[Sequence[float]], rows: int) -> Tuple[float, ...]:
+    if transform is None:
+        return (-0.5, 1, 0, rows - 0.5, 0, -1)
+    if hasattr(transform, "to_gdal"):
+        return tuple(transform.to_gdal())
+    if len(transform) != 6:
+        raise Error("a transform has six numbers")
+    return tuple(transform)
+
+
+def _raster_of(
+    array: ArrayLike, transform: Optional[Sequence[float]], crs: Optional[Crs], nodata: Optional[float]
+) -> _library.Raster:
+    mask = numpy.broadcast_to(array.mask, array.shape) if isinstance(array, numpy.ma.MaskedArray) else None
+    heights = numpy.asarray(array)
+    if heights.ndim != 2:
+        raise Error(f"a raster has two dimensions, not {heights.ndim}")
+    kind = numpy.float32 if heights.dtype == numpy.float32 else numpy.float64
+    if heights.dtype.kind in "iu":
+        beyond = numpy.abs(heights.astype(numpy.float64)) > 2**53
+        if (beyond if nodata is None else beyond & (heights != nodata)).any():
+            raise Error("a height is beyond 2^53")
+    if heights.dtype.kind not in "iuf" or heights.dtype.itemsize > 8:
+        raise Error(f"heights are integers or floats of up to 64 bits, not {heights.dtype}")
+    if nodata is not None and heights.dtype == numpy.float16:
+        nodata = float(numpy.float16(nodata))  # the library compares in 32 and 64 bits
+    if mask is not None and mask.any():
+        heights = numpy.where(mask, numpy.nan, heights)
+    heights = numpy.ascontiguousarray(heights, kind)
+    raster = _library.Raster(columns=heights.shape[1], rows=heights.shape[0], wkt=wkt_of(crs))
+    raster.transform[:] = _transform_of(transform, heights.shape[0])
+    if nodata is not None:
+        raster.no_data = ctypes.pointer(ctypes.c_double(float(nodata)))
+    if kind == numpy.float32:
+        raster.float_heights = heights.ctypes.data_as(ctypes.POINTER(ctypes.c_float))
+    else:
+        raster.heights = heights.ctypes.data_as(_library.Doubles)
+    raster.kept = heights  # as long as the pointer to it
+    return raster
+
+
+def paths_of(array: Any) -> Optional[List[Path]]:
+    """The paths that stand in place of an array; None for an array."""
+    if isinstance(array, (str, os.PathLike)):
+        return [array]
+    is_list = isinstance(array, (list, tuple)) and len(array) > 0
+    return list(array) if is_list and all(isinstance(one, (str, os.PathLike)) for one in array) else None
+
+
+def source_from_files(files: Files) -> Source:
+    paths = paths_of(files)
+    if paths is None:
+        raise Error("files are a path, or a list of paths")
+    names = [os.fsencode(path) for path in paths]
+    return Source(library.microtin_source_from_files, (ctypes.c_char_p * len(names))(*names), len(names))
+
+
+def source_of(
+    array: Union[ArrayLike, Files],
+    transform: Optional[Sequence[float]],
+    crs: Optional[Crs],
+    nodata: Optional[float],
+    error_map: Optional[ErrorMap],
+) -> Source:
+    if paths_of(array) is None:
+        return _source_from_array(array, transform, crs, nodata, error_map)  # type: ignore[arg-type]
+    if transform is not None or nodata is not None or (crs is not None and epsg_of(crs) is None):
+        raise Error("files state their own transform, nodata and well-known text; leave these out")
+    if error_map is not None and not isinstance(error_map, (str, bytes, os.PathLike)):
+        raise Error("error_map: files take the path of a map, not an array")
+    return source_from_files(array)  # type: ignore[arg-type]
+
+
+def _source_from_array(
+    array: ArrayLike,
+    transform: Optional[Sequence[float]],
+    crs: Optional[Crs],
+    nodata: Optional[float],
+    error_map: Optional[ErrorMap],
+) -> Source:
+    source = Source(library.microtin_source_from_raster, _raster_of(array, transform, crs, nodata))
+    if error_map is None or isinstance(error_map, (str, bytes, os.PathLike)):
+        return source
+    try:
+        if numpy.shape(error_map) != numpy.shape(array):
+            raise Error(f"error_map has the shape {numpy.shape(error_map)}, and the array {numpy.shape(array)}")
+        library.microtin_source_set_error_map(source.pointer, _raster_of(error_map, transform, None, None))
+    except BaseException:
+        source.__exit__()
+        raise
+    return source
+
+
+def source_from_points(points: ArrayLike, crs: Optional[Crs], error_map: Optional[ErrorMap]) -> Source:
+    if error_map is not None and not isinstance(error_map, (str, bytes, os.PathLike)):
+        raise Error("error_map: points take the path of a map, not an array")
+    rows = numpy.ascontiguousarray(points, numpy.float64)
+    if rows.ndim != 2 or rows.shape[1] != 3:
+        raise Error("points are rows of x, y and height")
+    content = _library.Points(
+        count=len(rows), coordinates=rows.ctypes.data_as(_library.Doubles), wkt=wkt_of(crs)
+    )
+    return Source(library.microtin_source_from_points, content)
