@@ -10,12 +10,9 @@
 
 #include "encoder/base/text.hpp"
 #include "encoder/cli/commands.hpp"
-#include "encoder/cli/completion.hpp"
 #include "encoder/cli/definitions.hpp"
-#include "encoder/cli/groups.hpp"
-#include "encoder/cli/help.hpp"
-#include "encoder/cli/manual.hpp"
 #include "encoder/cli/options.hpp"
+#include "encoder/cli/pages.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/picture/render.hpp"
 #include "encoder/terrain/fractal.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes the scripts of shell completion from the definitions of commands and options.
-#include "encoder/cli/completion.hpp"
+#include "encoder/cli/pages.hpp"
 
 namespace microtin::cli {
 namespace {

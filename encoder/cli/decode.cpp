@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
-// The command decode: a mesh or a grid from a stream or a pack.
+// The commands decode and embed: streams and packs as files of other programs.
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/text.hpp"
 #include "encoder/cli/commands.hpp"
-#include "encoder/cli/decode_grid.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/export/autopilot.hpp"
 #include "encoder/export/lines.hpp"
 #include "encoder/export/mesh.hpp"
+#include "encoder/files/input.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/import/geojson.hpp"
 #include "encoder/product/document.hpp"
+#include "encoder/stream/embed.hpp"
 
 namespace microtin::cli {
 
@@ -151,6 +153,30 @@ void run_decode(const DecodeRequest& request) {
     return;
   }
   decode_to_mesh(request);
+}
+
+namespace {
+
+std::string source_of(const Document& document, const std::string& name) {
+  if (const DecodedStream* const stream = document.stream()) {
+    return embed(stream->bytes, Embedded::kStream,
+                 microtin_mesh_vertex_count(stream->terrain.mesh()), name);
+  }
+  const std::string bytes = read_file(document.path());
+  return embed({bytes.begin(), bytes.end()}, Embedded::kPack,
+               document.pack()->header().most_vertices, name);
+}
+
+}  // namespace
+
+void run_embed(const std::string& input, const std::string& output) {
+  refuse_overwriting({input}, output);
+  const Document document(input);
+  const std::string name =
+      output == "-" ? "terrain" : std::filesystem::u8path(output).stem().string();
+  OutputFile out(output);
+  out.write(source_of(document, name));
+  out.commit();
 }
 
 }  // namespace microtin::cli

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Chooses the posts of a grid, and writes its coordinate system to a file next to it.
-#include "encoder/cli/decode_grid.hpp"
-
 #include <cstdio>
 #include <filesystem>
 #include <optional>
 
 #include "encoder/base/error.hpp"
+#include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/export/grid.hpp"

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-// CLI11 takes its time to compile: only those that define options include it.
 namespace CLI {
 class App;
 }
@@ -52,6 +51,15 @@ std::string synopsis(const CommandText& command);
 
 // The text with `replacement` for every `character`.
 std::string replaced(std::string_view text, char character, std::string_view replacement);
+
+// The groups of commands on the help page of the program, and the usual group of options.
+inline constexpr const char* kEncode = "Encode a terrain";
+inline constexpr const char* kLookAt = "Look at a stream or a pack";
+inline constexpr const char* kConvert = "Convert a stream or a pack";
+inline constexpr const char* kShards = "Encode a pack on many machines";
+inline constexpr const char* kOthers = "Others";
+
+inline constexpr const char* kOptions = "Options";
 
 }  // namespace microtin::cli
 

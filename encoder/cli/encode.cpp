@@ -24,7 +24,6 @@
 #include "encoder/product/encode_stream.hpp"
 #include "encoder/product/made_pack.hpp"
 #include "encoder/product/public_options.hpp"
-#include "encoder/product/update_pack.hpp"
 #include "encoder/terrain/clouds.hpp"
 #include "encoder/terrain/voids.hpp"
 #include "encoder/verify/everywhere_bound.hpp"

@@ -10,7 +10,6 @@
 #include "encoder/cli/command_line.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/definitions.hpp"
-#include "encoder/cli/groups.hpp"
 #include "encoder/cli/options.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/stream/device_memory.hpp"

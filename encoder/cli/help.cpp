@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "encoder/cli/help.hpp"
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <numeric>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "encoder/cli/pages.hpp"
+#include "microtin/encoder.h"
+#include "shared/format.hpp"
+#include "shared/pack_format.hpp"
 
 namespace microtin::cli {
 namespace {
@@ -145,6 +148,15 @@ std::string usage_fault(const CLI::App& program, const CLI::ParseError& error) {
   if (!has_commands) return "unexpected argument " + unknown[0] + remedy("", page);
   return "unknown command " + unknown[0] +
          remedy(nearest(unknown[0], names_of_commands(text)), page);
+}
+
+std::string library_version() {
+  return microtin_version_string();
+}
+
+std::string versions() {
+  return "microtin " + library_version() + "\nstream format " + std::to_string(kVersion) +
+         "\npack format " + std::to_string(kPackVersion);
 }
 
 }  // namespace microtin::cli

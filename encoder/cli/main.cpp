@@ -11,10 +11,9 @@
 #include "encoder/base/error.hpp"
 #include "encoder/base/text.hpp"
 #include "encoder/cli/command_line.hpp"
-#include "encoder/cli/help.hpp"
 #include "encoder/cli/options.hpp"
+#include "encoder/cli/pages.hpp"
 #include "encoder/cli/report.hpp"
-#include "encoder/cli/version.hpp"
 #include "encoder/files/descriptors.hpp"
 #include "encoder/files/leftovers.hpp"
 

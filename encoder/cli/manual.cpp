@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes the manual page and the page of the documents that lists every command with its arguments
 // and options, from the texts of --help.
-#include "encoder/cli/manual.hpp"
-
-#include "encoder/cli/version.hpp"
+#include "encoder/cli/pages.hpp"
 
 namespace microtin::cli {
 namespace {

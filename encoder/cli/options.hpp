@@ -15,7 +15,7 @@
 
 #include "encoder/import/prepared_terrain.hpp"
 #include "encoder/layers.hpp"
-#include "encoder/product/named_options.hpp"
+#include "encoder/product/public_options.hpp"
 
 namespace microtin::cli {
 

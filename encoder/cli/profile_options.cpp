@@ -8,7 +8,7 @@
 
 #include "encoder/cli/command_line.hpp"
 #include "encoder/cli/commands.hpp"
-#include "encoder/cli/groups.hpp"
+#include "encoder/cli/definitions.hpp"
 #include "encoder/cli/options.hpp"
 #include "encoder/picture/render.hpp"
 

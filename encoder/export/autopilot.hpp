@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "encoder/export/height_sampler.hpp"
+#include "encoder/export/queries.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/degrees.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/lattice_map.hpp"
-#include "encoder/export/height_sampler.hpp"
+#include "encoder/export/queries.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/layers.hpp"
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "encoder/export/height_bounds.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/fraction.hpp"
+#include "encoder/export/queries.hpp"
 
 namespace microtin::exporting {
 namespace {

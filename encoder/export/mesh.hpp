@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "encoder/export/height_sampler.hpp"
+#include "encoder/export/queries.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/stream/decoded_terrain.hpp"

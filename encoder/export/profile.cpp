@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Walks along a line, tile by tile, and measures the way.
-#include "encoder/export/profile.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "encoder/base/error.hpp"
+#include "encoder/export/queries.hpp"
 #include "encoder/export/scene.hpp"
 #include "encoder/verify/everywhere.hpp"
 #include "microtin/segment.h"

@@ -7,7 +7,6 @@
 #include "encoder/exact/units.hpp"
 #include "encoder/export/json.hpp"
 #include "encoder/import/crs.hpp"
-#include "encoder/import/epsg.hpp"
 
 namespace microtin::exporting {
 namespace {

@@ -5,16 +5,17 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "encoder/base/error.hpp"
 #include "encoder/files/file_access.hpp"
 #include "encoder/files/leftovers.hpp"
-#include "encoder/files/stream_places.hpp"
 #include "encoder/layers.hpp"
 
 namespace microtin::files {
@@ -79,6 +80,26 @@ int open_new(std::string& name, NewFile kind);
 // A stream on a descriptor, which it then owns; null with errno if it cannot be, or there is none.
 std::FILE* stream_of(int file, const char* mode);
 
+// Where streams lie that are written one after the other, equal ones once.
+class StreamPlaces {
+ public:
+  // Whether the bytes at an offset are those of the stream.
+  using IsAt = std::function<bool(uint64_t offset)>;
+
+  // The offset of an equal stream, or bytes(): then the stream is new, and is to be written there.
+  uint64_t place(const std::vector<uint8_t>& stream, const IsAt& is_at);
+
+  // All streams that are to be written take as many bytes.
+  uint64_t bytes() const { return bytes_; }
+
+ private:
+  struct Place {
+    uint64_t offset, size;
+  };
+  std::unordered_multimap<size_t, Place> places_;  // by a hash
+  uint64_t bytes_ = 0;
+};
+
 // Streams that wait in a file until it is known what comes before them.
 
 // The file has no name, so that nothing is left of it, however the program ends.
@@ -104,6 +125,19 @@ class StreamSpool {
   std::string output_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
   StreamPlaces places_;
+};
+
+// Streams in memory.
+class JoinedStreams {
+ public:
+  // Returns where the stream is. An empty one is nowhere: 0.
+  uint64_t add(const std::vector<uint8_t>& stream);
+
+  const std::vector<uint8_t>& bytes() const { return bytes_; }
+
+ private:
+  StreamPlaces places_;
+  std::vector<uint8_t> bytes_;
 };
 
 }  // namespace microtin::files

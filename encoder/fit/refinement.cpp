@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "encoder/fit/post_limits.hpp"
-#include "encoder/stream/void_triangles.hpp"
+#include "encoder/stream/triangulation.hpp"
 #include "shared/interpolation.hpp"
 
 namespace microtin::fit {

@@ -18,7 +18,7 @@
 #include "encoder/fit/height_choice.hpp"
 #include "encoder/fit/refinement.hpp"
 #include "encoder/stream/encode.hpp"
-#include "encoder/terrain/convex_hull.hpp"
+#include "encoder/terrain/polygons.hpp"
 #include "shared/predicates.hpp"
 
 namespace microtin::fit {

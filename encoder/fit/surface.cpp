@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "encoder/stream/void_triangles.hpp"
+#include "encoder/stream/triangulation.hpp"
 #include "shared/interpolation.hpp"
 
 namespace microtin::fit {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Divides the first raster's cells until every raster's posts have a place.
-#include "encoder/import/common_lattice.hpp"
-
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -9,6 +7,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/lattice_map.hpp"
+#include "encoder/import/mosaic.hpp"
 
 namespace microtin::importing {
 namespace {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The ground on both sides of a route.
+// The ground on both sides of a route, and bounds that grow with the distance from it.
 #ifndef MICROTIN_ENCODER_IMPORT_CORRIDOR_HPP
 #define MICROTIN_ENCODER_IMPORT_CORRIDOR_HPP
 
+#include <string>
 #include <vector>
 
+#include "encoder/exact/decimal.hpp"
 #include "encoder/exact/units.hpp"
+#include "encoder/import/geojson.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/polygons.hpp"
 
@@ -18,6 +21,12 @@ namespace microtin::importing {
 // latitude for up to 10 km. Throws Error if a line of degrees comes near a pole. O(degrees of
 // latitude + vertices) polygons.
 std::vector<RealRings> corridor_of(const RealLine& line, double metres, Unit unit);
+
+// Polygons around the lines of a GeoJSON file, each with a bound: from `least` at the lines to
+// `edge` at half of `width` metres from them, in eight steps that are within the straight line
+// between the two. Throws Error naming the file if it has no line, or if `edge` is less.
+std::vector<Feature> route_bounds(const std::string& path, Decimal width, Decimal least,
+                                  Decimal edge, Unit unit);
 
 }  // namespace microtin::importing
 

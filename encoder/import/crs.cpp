@@ -11,7 +11,6 @@
 
 #include "encoder/base/text.hpp"
 #include "encoder/exact/units.hpp"
-#include "encoder/import/epsg.hpp"
 #include "encoder/import/reference.hpp"
 #include "encoder/import/text.hpp"
 

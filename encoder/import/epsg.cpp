@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A small part of the registry: what elevation comes in most often.
-#include "encoder/import/epsg.hpp"
-
 #include <array>
 
 #include "encoder/base/error.hpp"
+#include "encoder/import/crs.hpp"
 
 namespace microtin::importing {
 namespace {

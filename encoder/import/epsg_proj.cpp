@@ -9,7 +9,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/units.hpp"
-#include "encoder/import/epsg.hpp"
+#include "encoder/import/crs.hpp"
 
 namespace microtin::importing {
 namespace {

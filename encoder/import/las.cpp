@@ -11,7 +11,6 @@
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/laz.hpp"
-#include "encoder/import/scan_point.hpp"
 #include "encoder/import/text.hpp"
 
 namespace microtin::importing {

@@ -8,7 +8,6 @@
 
 #include "encoder/base/progress.hpp"
 #include "encoder/import/laz_coder.hpp"
-#include "encoder/import/laz_points.hpp"
 
 namespace microtin::importing {
 namespace {

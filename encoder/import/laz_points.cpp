@@ -2,8 +2,6 @@
 // The points of a chunk of LAZ, out of its bytes. Formats 0 to 3 interleave all that points have:
 // what microtin does not read is decoded to find what follows, but its values are not computed.
 // Formats 6 to 10 have layers: those that microtin does not read are skipped.
-#include "encoder/import/laz_points.hpp"
-
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
+#include "encoder/import/laz.hpp"
 #include "encoder/import/laz_coder.hpp"
 
 namespace microtin::importing {

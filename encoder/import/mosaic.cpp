@@ -14,7 +14,6 @@
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/exact/units.hpp"
-#include "encoder/import/common_lattice.hpp"
 #include "encoder/import/raster.hpp"
 #include "encoder/import/reference.hpp"
 

@@ -13,14 +13,13 @@
 #include "encoder/exact/fraction.hpp"
 #include "encoder/files/input.hpp"
 #include "encoder/import/area.hpp"
+#include "encoder/import/corridor.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/mosaic.hpp"
 #include "encoder/import/obstacles.hpp"
 #include "encoder/import/reference.hpp"
-#include "encoder/import/route_bounds.hpp"
 #include "encoder/terrain/clouds.hpp"
 #include "encoder/terrain/voids.hpp"
-#include "encoder/terrain/water.hpp"
 #include "shared/lattice.hpp"
 
 namespace microtin::importing {

@@ -10,7 +10,6 @@
 #include "encoder/base/error.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/import/crs.hpp"
-#include "encoder/import/epsg.hpp"
 
 namespace microtin::importing {
 namespace {

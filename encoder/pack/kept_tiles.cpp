@@ -10,7 +10,7 @@
 #include "encoder/verify/breaklines.hpp"
 #include "encoder/verify/everywhere.hpp"
 #include "encoder/verify/everywhere_bound.hpp"
-#include "encoder/verify/water_gauge.hpp"
+#include "encoder/verify/verify.hpp"
 
 namespace microtin::pack {
 namespace {

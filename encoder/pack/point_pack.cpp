@@ -11,7 +11,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/progress.hpp"
-#include "encoder/files/stream_places.hpp"
+#include "encoder/files/output.hpp"
 #include "encoder/fit/simplify.hpp"
 #include "encoder/pack/point_survey.hpp"
 #include "encoder/pack/point_tile.hpp"

@@ -14,7 +14,7 @@
 #include "encoder/fit/breaklines.hpp"
 #include "encoder/pack/border_strip.hpp"
 #include "encoder/verify/breaklines.hpp"
-#include "encoder/verify/water_gauge.hpp"
+#include "encoder/verify/verify.hpp"
 
 namespace microtin::pack {
 namespace {

@@ -6,8 +6,6 @@
 // search goes on from the last surface as long as time allows; the bound grows where the result
 // needs too many vertices, and shrinks where it fits. Where the lattice moves points so far that
 // errors at their own positions are much larger, more bounds are tried that hold there.
-#include "encoder/product/budget.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,6 +14,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/fit/bound_search.hpp"
+#include "encoder/product/encode_stream.hpp"
 
 namespace microtin::product {
 namespace {

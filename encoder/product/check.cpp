@@ -8,7 +8,6 @@
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/files/input.hpp"
 #include "encoder/product/document.hpp"
-#include "encoder/product/open_pack.hpp"
 #include "encoder/product/phases.hpp"
 
 namespace microtin::product {

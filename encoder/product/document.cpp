@@ -19,7 +19,6 @@
 #include "encoder/terrain/clouds.hpp"
 #include "encoder/verify/everywhere.hpp"
 #include "encoder/verify/verify.hpp"
-#include "encoder/verify/water_gauge.hpp"
 
 namespace microtin::product {
 namespace {
@@ -263,6 +262,19 @@ Original::Judgement Original::judge(const Progress& progress) const {
   judgement.true_places =
       verify_at_true_places(surface.height_at, surface.placement, *cloud(), judgement.true_bound);
   return judgement;
+}
+
+OpenPack open_pack(const std::string& path) {
+  std::unique_ptr<ByteSource> bytes = open_file(path);
+  refuse_shard(path, *bytes);
+  return with_file_context(path, [&] {
+    if (!is_pack(*bytes)) throw Error("is not a pack");
+    const ByteSource& same = *bytes;
+    PackFile file(std::move(bytes), PackFile::Index::kLater);
+    file.expect_index();
+    const uint32_t header_bytes = pack_index_start(file.header());
+    return OpenPack{bytes_at(same, 0, header_bytes), std::move(file)};
+  });
 }
 
 }  // namespace microtin::product

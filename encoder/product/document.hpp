@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "encoder/export/height_sampler.hpp"
+#include "encoder/export/queries.hpp"
 #include "encoder/import/prepared_terrain.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
@@ -122,6 +122,16 @@ class Original {
   std::optional<Decimal> water_level_;
   std::variant<Source, OpenSource> source_;
 };
+
+// A pack by name, read tile by tile.
+struct OpenPack {
+  std::vector<uint8_t> header;  // with placement, notes and check
+  PackFile file;                // reads an entry of the index with the entry's tile
+};
+
+// Throws Error naming the file if it is no pack, if its header is wrong, or if its index is cut
+// off.
+OpenPack open_pack(const std::string& path);
 
 }  // namespace microtin::product
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/export/height_sampler.hpp"
+#include "encoder/export/queries.hpp"
 #include "encoder/pack/point_pack.hpp"
 #include "encoder/pack/shard.hpp"
 #include "encoder/pack/tile_plan.hpp"

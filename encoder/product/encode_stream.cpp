@@ -10,10 +10,9 @@
 #include <vector>
 
 #include "encoder/base/error.hpp"
-#include "encoder/export/height_sampler.hpp"
+#include "encoder/export/queries.hpp"
 #include "encoder/fit/breaklines.hpp"
 #include "encoder/pack/point_pack.hpp"
-#include "encoder/product/budget.hpp"
 #include "encoder/product/phases.hpp"
 #include "encoder/product/true_bound.hpp"
 #include "encoder/stream/device_memory.hpp"
@@ -25,7 +24,6 @@
 #include "encoder/verify/everywhere.hpp"
 #include "encoder/verify/everywhere_bound.hpp"
 #include "encoder/verify/verify.hpp"
-#include "encoder/verify/water_gauge.hpp"
 
 namespace microtin::product {
 namespace {

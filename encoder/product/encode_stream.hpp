@@ -56,6 +56,13 @@ EncodedStream encode_measured(const Source& source, const EncodeOptions& options
 // becomes as wide as it must where points truly lie, or everywhere, as options say.
 EncodedStream measured(const Source& source, const EncodeOptions& options, Approximation&& found);
 
+// As encode_stream, for options with a limit of bytes or of vertices and without a bound. About
+// four encodings' time, at most five; of small terrains twenty. If the lattice moves points so far
+// that errors grow by a twentieth where they truly lie, a few bounds more are tried there, each in
+// several encodings. Throws Error if no bound is large enough.
+EncodedStream encode_within_budget(const Source& source, const EncodeOptions& options,
+                                   const Progress& progress);
+
 }  // namespace microtin::product
 
 #endif

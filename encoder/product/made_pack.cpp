@@ -6,8 +6,6 @@
 #include "encoder/base/error.hpp"
 #include "encoder/files/input.hpp"
 #include "encoder/pack/shard.hpp"
-#include "encoder/product/pack_parts.hpp"
-#include "encoder/product/update_pack.hpp"
 #include "encoder/terrain/clouds.hpp"
 #include "encoder/terrain/voids.hpp"
 

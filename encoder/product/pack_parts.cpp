@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Parts of packs: whole tiles are taken out, and put together again, without encoding.
-#include "encoder/product/pack_parts.hpp"
-
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -10,7 +8,8 @@
 #include "encoder/base/error.hpp"
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/pack/tile.hpp"
-#include "encoder/product/open_pack.hpp"
+#include "encoder/product/document.hpp"
+#include "encoder/product/made_pack.hpp"
 #include "encoder/terrain/exact_query.hpp"
 
 namespace microtin::product {

@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "encoder/base/error.hpp"
-#include "encoder/export/height_sampler.hpp"
-#include "encoder/export/profile.hpp"
+#include "encoder/export/queries.hpp"
 #include "encoder/files/input.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "encoder/export/height_sampler.hpp"
+#include "encoder/export/queries.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/lattice_choice.hpp"
 #include "encoder/verify/verify.hpp"

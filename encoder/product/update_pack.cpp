@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "encoder/product/update_pack.hpp"
-
 #include <algorithm>
 #include <utility>
 
@@ -9,7 +7,7 @@
 #include "encoder/pack/kept_tiles.hpp"
 #include "encoder/pack/surface.hpp"
 #include "encoder/product/document.hpp"
-#include "encoder/product/open_pack.hpp"
+#include "encoder/product/made_pack.hpp"
 #include "encoder/stream/header.hpp"
 #include "encoder/terrain/raster_scan.hpp"
 #include "encoder/verify/everywhere.hpp"

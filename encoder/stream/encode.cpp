@@ -11,7 +11,6 @@
 #include "encoder/stream/order.hpp"
 #include "encoder/stream/range_encoder.hpp"
 #include "encoder/stream/triangulation.hpp"
-#include "encoder/stream/void_triangles.hpp"
 #include "encoder/terrain/exact_query.hpp"
 #include "shared/reconstruction.hpp"
 

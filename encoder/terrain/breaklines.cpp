@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/terrain/convex_hull.hpp"
+#include "encoder/terrain/polygons.hpp"
 #include "shared/lattice.hpp"
 #include "shared/predicates.hpp"
 

@@ -11,6 +11,8 @@
 
 namespace microtin::terrain {
 
+constexpr double kPi = 3.14159265358979323846;
+
 // "latitude 158.2 is beyond 90 degrees", or empty: longitudes, of axis 0, go up to 360 degrees to
 // either side, latitudes, of axis 1, up to 90.
 std::string beyond_degrees(size_t axis, Decimal value);

@@ -12,6 +12,7 @@
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/layers.hpp"
+#include "shared/lattice.hpp"
 
 namespace microtin::terrain {
 
@@ -63,6 +64,11 @@ class Rings {
 
   std::vector<Edge> edges_;
 };
+
+// The numbers of the corners, counter-clockwise, without places on edges (Andrew's monotone chain).
+// Places are distinct and in lexicographic order. Of places on one line the corners are its ends;
+// of one place there is none. O(places).
+std::vector<uint32_t> hull_corners(const std::vector<Point>& places);
 
 }  // namespace microtin::terrain
 

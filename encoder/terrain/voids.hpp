@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Voids of a raster: how they are filled, and heights that mark voids without a declaration.
+// Voids of a raster: how they are filled, heights that mark voids without a declaration, and water.
 #ifndef MICROTIN_ENCODER_TERRAIN_VOIDS_HPP
 #define MICROTIN_ENCODER_TERRAIN_VOIDS_HPP
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "encoder/layers.hpp"
@@ -58,6 +59,14 @@ class Extremes {
 std::string warning_on_fill(const Raster& raster);
 std::string warning_on_fill(const PointCloud& cloud);
 std::string warning_on_fill(const Extremes& posts, int decimals);
+
+// Gives void posts the height of the water level: all, or those where the mask is 1. Posts with
+// heights keep them. Counts those as flooded. Throws Error if the level needs more decimals than
+// go with the heights.
+void flood_voids(Raster& raster, Decimal level, const Raster* mask);
+
+// Throws Error if the mask has not the posts of the raster, or holds anything but 0, 1 and voids.
+void check_water_mask(const Raster& mask, const Raster& raster);
 
 }  // namespace microtin::terrain
 

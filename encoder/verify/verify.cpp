@@ -400,4 +400,13 @@ Verification verify_at_true_places(const HeightQuery& height_at, const Placement
   return result;
 }
 
+WaterGauge::WaterGauge(int decimals, const std::optional<Decimal>& level)
+    : number_(number_of(level, decimals)) {}
+
+PostVisitor WaterGauge::visitor() {
+  return [this](int64_t, int64_t, int64_t z, double above) {
+    if (z == number_ && above != 0) ++moved_;
+  };
+}
+
 }  // namespace microtin::verifying

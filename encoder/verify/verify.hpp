@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "encoder/exact/decimal.hpp"
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/exact_query.hpp"
@@ -150,6 +151,22 @@ bool moves_points(const Placement& lattice, const PointCloud& cloud);
 Verification verify_at_true_places(const HeightQuery& height_at, const Placement& lattice,
                                    const PointCloud& cloud, const std::optional<Decimal>& bound,
                                    const TruePlaceVisitor& visit = {});
+
+// Counts the posts at the water level where a terrain is not exactly there.
+class WaterGauge {
+ public:
+  // Gauges a source whose heights have `decimals` decimals. Without a level it counts nothing.
+  WaterGauge(int decimals, const std::optional<Decimal>& level);
+
+  // The gauge must outlive it.
+  PostVisitor visitor();
+
+  uint64_t moved() const { return moved_; }
+
+ private:
+  std::optional<int64_t> number_;  // of the source, for the level
+  uint64_t moved_ = 0;
+};
 
 }  // namespace microtin::verifying
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Codes that are known without PROJ, against a list of their own: EPSG's registry 10.076.
-#include "encoder/import/epsg.hpp"
-
 #include <doctest/doctest.h>
 
 #include <map>
 #include <string>
 
+#include "encoder/import/crs.hpp"
 #include "tests/support/layers.hpp"
 
 using namespace microtin::tests;

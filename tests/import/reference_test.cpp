@@ -7,7 +7,6 @@
 #include <string>
 
 #include "encoder/import/crs.hpp"
-#include "encoder/import/epsg.hpp"
 #include "tests/support/imports.hpp"
 
 using namespace microtin::tests;

@@ -11,7 +11,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/pack/surface.hpp"
-#include "encoder/product/update_pack.hpp"
+#include "encoder/product/made_pack.hpp"
 #include "tests/support/border_walk.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/packs.hpp"

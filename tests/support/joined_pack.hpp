@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "encoder/files/stream_places.hpp"
+#include "encoder/files/output.hpp"
 #include "encoder/pack/file.hpp"
 #include "tests/support/layers.hpp"
 

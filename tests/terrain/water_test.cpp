@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Water before a terrain is encoded.
-#include "encoder/terrain/water.hpp"
-
 #include <doctest/doctest.h>
 
 #include "encoder/base/error.hpp"
 #include "encoder/terrain/lay_out.hpp"
+#include "encoder/terrain/voids.hpp"
 #include "tests/support/packs.hpp"
 
 namespace microtin::tests {

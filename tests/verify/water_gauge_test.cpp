@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Posts of water that are not at the level.
-#include "encoder/verify/water_gauge.hpp"
-
 #include <doctest/doctest.h>
 
+#include "encoder/verify/verify.hpp"
 #include "tests/support/packs.hpp"
 
 namespace microtin::tests {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Water is where it is declared, exactly, and nowhere else.
-#include "encoder/terrain/water.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cstdlib>
@@ -9,6 +7,7 @@
 #include "encoder/fit/simplify.hpp"
 #include "encoder/pack/surface.hpp"
 #include "encoder/stream/encode.hpp"
+#include "encoder/terrain/voids.hpp"
 #include "tests/support/packs.hpp"
 
 namespace microtin::tests {
