@@ -15,6 +15,7 @@ meanings names of unnamed namespaces have one meaning in a folder, whose sources
 locale   the encoder's library knows no decimal comma, whatever the program that uses it has chosen
 parts    each program of .ci/parts runs in a workflow of .github, and workflows run no other
 changelog the section of a version has entries of one line under Added, Changed, Fixed and Removed
+wording  messages are clauses that name the fault: without a full stop, an exclamation mark, two blanks or "invalid"
 prose    documents have short, plain sentences; the change log, the report of the benchmarks and laboratory notes may differ
 
 conventions.py messages [FOLDER]: prints the texts of errors and warnings, "file:line: message", for people to read
@@ -281,8 +282,8 @@ def arguments(text, start):
     return ""
 
 
-def messages(folder):
-    """Each message once, its variable parts as "..."."""
+def all_messages(folder):
+    """File, line and text of each message, its variable parts as "..."."""
     for path in files(folder / "encoder"):
         if not path.name.endswith((".cpp", ".hpp", ".py")):
             continue
@@ -297,8 +298,28 @@ def messages(folder):
             if re.search(r"[a-z] [a-z]", words):
                 ends = found.end() + len(parts)
                 number = text.count("\n", 0, found.start()) + 1
-                print(f"{path.relative_to(folder)}:{number}: {words}")
+                yield path.relative_to(folder), number, words
+
+
+def messages(folder):
+    for path, number, words in all_messages(folder):
+        print(f"{path}:{number}: {words}")
     return []
+
+
+def wording(folder):
+    """A message is a clause that names the fault and, after a semicolon or a colon, the remedy: no sentence, no appeal."""
+    found = []
+    for path, number, words in all_messages(folder):
+        text = re.sub(r"\.\.\.|\\n", " ", words).strip()
+        reasons = (
+            (text.endswith((".", ";")) and not words.endswith("..."), "ends with a stop"),
+            (re.search(r"!(?!r\b)", text), "has an exclamation mark"),
+            (re.search(r"[a-z;:,]  +[a-z]", words), "has two blanks"),
+            (re.search(r"\b(please|sorry|invalid|illegal|oops)\b", text, re.I), "does not name the fault"),
+        )
+        found += [f"{path}:{number} {reason}: {words}" for holds, reason in reasons if holds]
+    return found
 
 
 def paragraphs(document):
@@ -368,7 +389,7 @@ def parts(folder):
 
 def main():
     folder = Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT
-    checks = {check.__name__: check for check in (length, links, pointers, comments, columns, merges, licence, faults, widths, options, meanings, locale, parts, changelog, prose, messages)}
+    checks = {check.__name__: check for check in (length, links, pointers, comments, columns, merges, licence, faults, widths, options, meanings, locale, parts, changelog, wording, prose, messages)}
     found = checks[sys.argv[1]](folder)
     for fault in found:
         print("rejected:", fault)

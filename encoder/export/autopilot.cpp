@@ -246,7 +246,7 @@ void AutopilotBlock::refuse(int32_t lowest, int32_t highest) const {
   throw Error("from " + std::to_string(lowest / 1000) + " m to " + std::to_string(highest / 1000) +
               " m in the block at " + std::to_string(static_cast<double>(corner.latitude) * 1e-7) +
               ", " + std::to_string(static_cast<double>(corner.longitude) * 1e-7) +
-              ": ten bits of 2 m hold 2046 m");
+              ": ten bits of 2 m hold 2046 m; write a .DAT file instead");
 }
 
 namespace {
@@ -291,7 +291,7 @@ int32_t millimetres(const ExactHeight& height, const Axis& z) {
   const Wide rounded = rounded_mantissa(z, height_of_answer(fixed_height(height)), 3);
   if (rounded < -32768000 || rounded > 32767000) {
     throw Error("a height of " + std::to_string(static_cast<int64_t>(rounded / 1000)) +
-                " m does not fit 16 bits");
+                " m does not fit 16 bits; cut such heights out of the terrain");
   }
   return static_cast<int32_t>(rounded);
 }
@@ -432,7 +432,8 @@ AutopilotFile autopilot_file(const SampledSurface& surface, Autopilot autopilot,
       file.partial += block.groups() != 0 && block.groups() != AutopilotBlock::kAllGroups ? 1u : 0u;
     }
   }
-  if (file.blocks == 0) throw Error("the terrain has no height in the cell");
+  if (file.blocks == 0)
+    throw Error("the terrain has no height in the cell; name the file after a cell that has some");
   measure(named, layout, file);
   return file;
 }

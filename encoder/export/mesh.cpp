@@ -286,7 +286,8 @@ void export_glb(const SurfaceModel& model, Coordinates coordinates, OutputFile& 
   std::string head = describe(model, scene);
   head.resize((head.size() + 3) / 4 * 4, ' ');
   const uint64_t size = 12 + 8 + head.size() + 8 + body;
-  if (size > std::numeric_limits<uint32_t>::max()) throw Error("a .glb holds at most 4 GB");
+  if (size > std::numeric_limits<uint32_t>::max())
+    throw Error("a .glb holds at most 4 GB; write a .ply file");
   WordWriter words(out);
   for (const uint64_t word :
        {uint64_t{kMagic}, uint64_t{kVersion}, size, head.size(), uint64_t{kJson}}) {

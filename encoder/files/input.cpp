@@ -152,7 +152,8 @@ class FileBytes : public ByteSource {
     auto file = std::make_shared<const OpenFile>(path_);
     const FileState& now = file->state();
     if (now.size != state_.size || now.volume != state_.volume || now.number != state_.number) {
-      throw Error(path_ + ": became another file while it was read");
+      throw Error(path_ +
+                  ": became another file while it was read; start again when it is complete");
     }
     return file;
   }

@@ -20,7 +20,7 @@ void Area::add_polygons(const std::string& path) {
   for (Feature& feature : import_geojson(path, text)) {
     std::move(feature.polygons.begin(), feature.polygons.end(), std::back_inserter(polygons_));
   }
-  if (polygons_.size() == before) throw Error(path + ": has no polygon");
+  if (polygons_.size() == before) throw Error(path + ": has no polygon; draw one around the area");
 }
 
 void Area::add_corridors(const std::string& path, Decimal width, Unit unit) {
@@ -34,7 +34,7 @@ void Area::add_corridors(const std::string& path, Decimal width, Unit unit) {
       std::move(corridor.begin(), corridor.end(), std::back_inserter(polygons_));
     }
   }
-  if (polygons_.size() == before) throw Error(path + ": has no line");
+  if (polygons_.size() == before) throw Error(path + ": has no line; draw the route as one");
 }
 
 void Area::cut(Raster& raster) const {

@@ -249,7 +249,7 @@ class AscReader : public RasterReader {
     const std::optional<Decimal> height = parse_decimal(word);
     DecimalRange range;
     if (!height || height->decimals > frame_.decimals || !range.add(*height)) {
-      throw Error(name_ + ": changed while it was read");
+      throw Error(name_ + ": changed while it was read; start again when it is complete");
     }
     return static_cast<int64_t>(mantissa_at(*height, frame_.decimals));
   }

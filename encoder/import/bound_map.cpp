@@ -96,7 +96,8 @@ void BoundMap::read_polygons(const std::string& path) {
     if (!feature.has_max_error) throw Error(path + ": a polygon has no property max_error");
     polygons_.push_back(std::move(feature));
   }
-  if (polygons_.empty()) throw Error(path + ": has no polygon");
+  if (polygons_.empty())
+    throw Error(path + ": has no polygon; give each bound one, or name a raster of bounds");
 }
 
 // The decimals that all bounds need, and the max_error at which they hold: the one that is given,

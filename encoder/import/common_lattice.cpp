@@ -26,7 +26,7 @@ std::string cells_of(const Raster& frame) {
 // Converts numbers of one axis to those of another. Steps of axes are above 0, and so is the map's.
 LatticeMap map_of(const Axis& from, const Axis& to) {
   const LatticeMap map = map_between(from, to);
-  if (map.step <= 0) throw InternalFault("a grid has cells without a size");
+  if (map.step <= 0) throw InternalFault("a grid has cells without a size; give them one");
   return map;
 }
 

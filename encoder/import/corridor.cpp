@@ -28,7 +28,8 @@ struct Place {
 RealPoint point_at(double x, double y) {
   const std::optional<Decimal> decimal_x = exact::shortest_decimal(x),
                                decimal_y = exact::shortest_decimal(y);
-  if (!decimal_x || !decimal_y) throw Error("a place of the route is out of range");
+  if (!decimal_x || !decimal_y)
+    throw Error("a place of the route is out of range; check its coordinates");
   return {*decimal_x, *decimal_y};
 }
 
@@ -41,7 +42,8 @@ Place per_metre(Place from, Place to, double metres, Unit unit) {
   constexpr double kMostLatitude = 89;
   const double degree = 1 / kMetresOfDegree;
   const double latitude = std::max(std::abs(from.y), std::abs(to.y)) + metres * degree;
-  if (latitude > kMostLatitude) throw Error("the corridor comes within a degree of a pole");
+  if (latitude > kMostLatitude)
+    throw Error("the corridor comes within a degree of a pole; end the route farther away");
   return {degree / std::cos(latitude * kPi / 180), degree};
 }
 
@@ -81,7 +83,7 @@ std::vector<RealRings> corridor_of(const RealLine& line, double metres, Unit uni
     const Place to = {exact::real(line[i].x), exact::real(line[i].y)};
     const Place from = i == 0 ? to : Place{exact::real(line[i - 1].x), exact::real(line[i - 1].y)};
     const double rise = unit == Unit::kDegree ? std::abs(to.y - from.y) : 0;
-    if (rise > 180) throw Error("the route leaves the Earth");
+    if (rise > 180) throw Error("the route leaves the Earth; check its coordinates");
     const int pieces = 1 + static_cast<int>(rise / kPieceDegrees);
     for (int piece = 0; piece < pieces; ++piece) {
       const auto at = [&](int end) {
@@ -131,7 +133,7 @@ std::vector<Feature> route_bounds(const std::string& path, Decimal width, Decima
       }
     }
   }
-  if (bounds[0].polygons.empty()) throw Error(path + ": has no line");
+  if (bounds[0].polygons.empty()) throw Error(path + ": has no line; draw the route as one");
   return bounds;
 }
 

@@ -52,7 +52,9 @@ bool grows_downwards(OGRSpatialReferenceH system) {
 
 std::optional<CodedSystem> system_by_proj(uint32_t code) {
   const OwnedSystem system = system_for(code);
-  if (!system) throw Error("EPSG has no coordinate reference system " + std::to_string(code));
+  if (!system)
+    throw Error("EPSG has no coordinate reference system " + std::to_string(code) +
+                "; look for the code at epsg.org");
   const bool is_vertical = OSRIsVertical(system.get()) != 0 && OSRIsCompound(system.get()) == 0;
   const bool is_horizontal =
       OSRIsGeographic(system.get()) != 0 || OSRIsProjected(system.get()) != 0;

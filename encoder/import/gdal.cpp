@@ -84,7 +84,8 @@ Dataset open(const std::string& path, Indirect indirect) {
     }
     throw Error("GDAL cannot open it: " + reason(path));
   }
-  if (GDALGetRasterCount(dataset.get()) == 0) throw Error("has no raster band");
+  if (GDALGetRasterCount(dataset.get()) == 0)
+    throw Error("has no raster band; name a file of heights");
   return dataset;
 }
 

@@ -74,7 +74,7 @@ class HgtReader : public RasterReader {
     for (uint32_t y = r.y; y < r.y + r.height; ++y) {
       const uint64_t post = uint64_t{frame_.height - 1 - y} * frame_.width + r.x;
       if (bytes_->read(2 * post, row.data(), row.size()) != row.size()) {
-        throw Error(name_ + ": became shorter while it was read");
+        throw Error(name_ + ": became shorter while it was read; start again when it is complete");
       }
       for (size_t i = 0; i < row.size(); i += 2) part.heights.push_back(height_of(&row[i]));
     }

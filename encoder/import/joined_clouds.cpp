@@ -22,7 +22,7 @@ void refine_cloud(PointCloud& cloud, int xy_decimals, int z_decimals, const std:
   if (xy == 1 && z == 1) return;  // as for most files: else time would be quadratic in them
   for (SourcePoint& p : cloud.points) {
     if (!terrain::refine(p.x, xy) || !terrain::refine(p.y, xy) || !terrain::refine(p.z, z)) {
-      throw Error(path + ": its numbers do not fit the decimals of the other files");
+      throw Error(path + ": its numbers do not fit the decimals of the other files; round them");
     }
   }
   cloud.xy_decimals = xy_decimals;

@@ -189,7 +189,7 @@ struct Part {
     Raster piece = raster->read({static_cast<uint32_t>(west), static_cast<uint32_t>(south),
                                  static_cast<uint32_t>(columns), static_cast<uint32_t>(rows)});
     if (!refine(piece.heights, power_of_ten(decimals - piece.decimals))) {
-      throw Error(path + ": its heights do not fit the decimals of the other files");
+      throw Error(path + ": its heights do not fit the decimals of the other files; round them");
     }
     return {box.x + west * sx, box.y + south * sy, sx, sy, columns, rows, std::move(piece.heights)};
   }

@@ -130,7 +130,8 @@ int64_t number_of(Decimal height, int decimals) {
   const Wide number = ceil_divide(Wide{height.mantissa} * exact::power_of_ten(decimals),
                                   exact::power_of_ten(height.decimals));
   constexpr int64_t kMost = int64_t{1} << 59;
-  if (magnitude(number) > kMost) throw Error("the top of an obstacle is out of range");
+  if (magnitude(number) > kMost)
+    throw Error("the top of an obstacle is out of range; check its unit");
   return static_cast<int64_t>(number);
 }
 
@@ -287,7 +288,8 @@ class Slopes {
       int64_t& number = bounds_.numbers[post];
       if (number == terrain::kUnbounded) continue;
       const Wide bound = number * own_ + above_[post] * of_heights_;
-      if (bound > int64_t{1} << 62) throw Error("bounds and heights have too many digits");
+      if (bound > int64_t{1} << 62)
+        throw Error("bounds and heights have too many digits; round them");
       number = static_cast<int64_t>(bound);
     }
     return std::move(bounds_);

@@ -86,7 +86,7 @@ namespace {
 std::unique_ptr<RasterReader> open_mask(const std::string& path, const Raster& frame) {
   OpenSource source = open_terrain(path);
   auto* const mask = std::get_if<std::unique_ptr<RasterReader>>(&source);
-  if (mask == nullptr) throw Error(path + ": is not a raster");
+  if (mask == nullptr) throw Error(path + ": is not a raster; use an .asc grid of 0 and 1");
   with_file_context(path, [&] { check_water_mask((*mask)->frame(), frame); });
   return std::move(*mask);
 }

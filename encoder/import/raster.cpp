@@ -119,7 +119,8 @@ bool runs_east(const std::array<double, 6>& transform) {
 
 Axis axis_of_cells_from(double corner, double size, uint32_t cells) {
   const Decimal length = place_of(std::abs(size));
-  if (length.mantissa == 0) throw Error("cells have no extent");
+  if (length.mantissa == 0)
+    throw Error("cells have no extent; give them a width and a height above 0");
   return axis_of_cells(place_of(corner), length, size > 0 ? 1 : 1 - 2 * int64_t{cells});
 }
 

@@ -32,7 +32,7 @@ uint64_t find_end_record(const ByteReader& file) {
     const uint64_t at = file.size() - behind;
     if (file.bytes(at, 4) == std::string_view("PK\5\6")) return at;
   }
-  file.fail("is not a zip archive, or cut off");
+  file.fail("is not a zip archive, or cut off; copy the file again");
 }
 
 bool is_hgt(std::string_view name) {
@@ -47,7 +47,8 @@ Entry find_hgt(const ByteReader& file) {
   uint64_t at = file.number<uint32_t>(end + 16);
   std::optional<Entry> found;
   for (uint16_t i = 0; i < entries; ++i) {
-    if (file.bytes(at, 4) != std::string_view("PK\1\2")) file.fail("the archive's list is damaged");
+    if (file.bytes(at, 4) != std::string_view("PK\1\2"))
+      file.fail("the archive's list is damaged; copy the file again");
     const uint16_t name_size = file.number<uint16_t>(at + 28);
     const std::string_view name = file.bytes(at + 46, name_size);
     if (is_hgt(name)) {
@@ -87,7 +88,7 @@ std::optional<std::string> inflated(std::string_view packed, uint64_t size) {
 
 std::string unpacked(const ByteReader& file, const Entry& entry) {
   constexpr uint16_t kStored = 0, kDeflated = 8, kEncrypted = 1;
-  if ((entry.flags & kEncrypted) != 0) file.fail("the .hgt file is encrypted");
+  if ((entry.flags & kEncrypted) != 0) file.fail("the .hgt file is encrypted: unpack it first");
   if (entry.method != kStored && entry.method != kDeflated) {
     file.fail("the .hgt file is packed by method " + std::to_string(entry.method) +
               "; stored and deflated ones are read: unpack it first");
@@ -97,7 +98,8 @@ std::string unpacked(const ByteReader& file, const Entry& entry) {
               " bytes, more than 10801 x 10801 posts: unpack it first");
   }
   const uint64_t local = entry.local_header;
-  if (file.bytes(local, 4) != std::string_view("PK\3\4")) file.fail("the archive is damaged");
+  if (file.bytes(local, 4) != std::string_view("PK\3\4"))
+    file.fail("the archive is damaged; copy the file again");
   const uint64_t at =
       local + 30 + file.number<uint16_t>(local + 26) + file.number<uint16_t>(local + 28);
   const std::string_view packed = file.bytes(at, entry.packed);
@@ -109,7 +111,8 @@ std::string unpacked(const ByteReader& file, const Entry& entry) {
   const auto check_of = [](const std::string& all) {
     return crc32(0, reinterpret_cast<const Bytef*>(all.data()), static_cast<uInt>(all.size()));
   };
-  if (!bytes || check_of(*bytes) != entry.check) file.fail("the .hgt file in it is damaged");
+  if (!bytes || check_of(*bytes) != entry.check)
+    file.fail("the .hgt file in it is damaged; copy the file again");
   return *bytes;
 }
 

@@ -26,7 +26,8 @@ uint64_t to_unsigned(int16_t value) {
 Bytes write_entry(const TileSummary& tile) {
   Bytes entry;
   if (tile.bytes == 0) return Bytes(kPackEntryBytes - kCheckBytes);
-  if (tile.bytes >> 24 != 0 || tile.offset >> 40 != 0) throw Error("the pack grows too large");
+  if (tile.bytes >> 24 != 0 || tile.offset >> 40 != 0)
+    throw Error("the pack grows too large; make a pack of each part");
   append_number(entry, tile.offset, 5);
   append_number(entry, tile.bytes, 3);
   append_number(entry, tile.stream_hash, 4);

@@ -176,7 +176,7 @@ class Shard {
       const Bytes start = take(std::min<uint64_t>(kStartBytes, bytes_->size()));
       if (start.size() < kStartBytes ||
           !std::equal(kShardMagic, kShardMagic + sizeof kShardMagic, start.begin())) {
-        throw Error("not a shard that this version of microtin made");
+        throw Error("not a shard that this version of microtin made; encode it again");
       }
       const uint32_t size = read_u32(start.data() + sizeof kShardMagic);
       if (size < kPackFixedBytes || size > kMostHeadBytes)
@@ -248,8 +248,9 @@ void expect_all_tiles(const std::vector<Shard>& shards, const TileGrid& grid) {
   const auto fail_if_missing = [&](uint64_t end) {
     if (next >= end) return;
     const std::string first = std::to_string(next), last = std::to_string(end - 1);
-    throw Error(next + 1 == end ? "tile " + first + " is in no shard"
-                                : "tiles " + first + " to " + last + " are in no shard");
+    throw Error(next + 1 == end ? "tile " + first + " is in no shard; name its shard, too"
+                                : "tiles " + first + " to " + last +
+                                      " are in no shard; name their shards, too");
   };
   for (std::size_t i = 0; i < shards.size(); ++i) {
     const TileRange range = shards[i].range();

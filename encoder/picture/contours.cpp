@@ -69,7 +69,8 @@ class Cutter {
   // The highest level below a height: |offset + z * step| < 2^63 * 10^18 is a Wide.
   int64_t level_below(int64_t z) const {
     const Wide level = ceil_divide(offset_ + z * step_, interval_) - 1;
-    if (magnitude(level) > INT32_MAX) throw Error("the interval of contours is too small");
+    if (magnitude(level) > INT32_MAX)
+      throw Error("the interval of contours is too small; use a larger one");
     return static_cast<int64_t>(level);
   }
 
@@ -94,7 +95,8 @@ class Cutter {
   uint32_t joint_at(const Crossing& at) {
     const auto [found, is_new] = numbers_.emplace(at, static_cast<uint32_t>(joints_.size()));
     if (is_new) {
-      if (joints_.size() == kMostPieces) throw Error("the interval of contours is too small");
+      if (joints_.size() == kMostPieces)
+        throw Error("the interval of contours is too small; use a larger one");
       joints_.push_back({at, {kNone, kNone}});
       followed_.push_back(false);
     }

@@ -106,7 +106,7 @@ std::vector<uint8_t> png(const std::vector<uint8_t>& rgb, uint32_t width, uint32
   std::vector<uint8_t> file;
   const int w = static_cast<int>(width), h = static_cast<int>(height);
   if (stbi_write_png_to_func(append, &file, w, h, 3, rgb.data(), 3 * w) == 0) {
-    throw Error("the picture does not fit into memory");
+    throw Error("the picture does not fit into memory; make it narrower");
   }
   return file;
 }

@@ -223,7 +223,8 @@ void expect_drawable(const Portrait& portrait, uint32_t width) {
                 " pixels wide");
   }
   expect_letters(portrait.title);
-  if (portrait.model.vertices.empty()) throw Error("there is nothing to draw");
+  if (portrait.model.vertices.empty())
+    throw Error("there is nothing to draw; the terrain needs a triangle");
 }
 
 // All but the ground: what is drawn the same on both kinds of pictures.

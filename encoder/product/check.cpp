@@ -37,7 +37,8 @@ Checked check_file(const std::string& path) {
 Difference compare_packs(const std::string& first, const std::string& second) {
   const OpenPack a = open_pack(first), b = open_pack(second);
   if (!have_same_tiles(a.file, b.file)) {
-    throw Error(first + ", " + second + ": have other tiles or another lattice");
+    throw Error(first + ", " + second +
+                ": have other tiles or another lattice; compare packs of one plan");
   }
   const auto stream_in = [](const std::string& path, const OpenPack& pack, uint32_t tile) {
     return with_file_context(path, [&] { return pack.file.stream(tile); });

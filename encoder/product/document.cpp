@@ -268,7 +268,7 @@ OpenPack open_pack(const std::string& path) {
   std::unique_ptr<ByteSource> bytes = open_file(path);
   refuse_shard(path, *bytes);
   return with_file_context(path, [&] {
-    if (!is_pack(*bytes)) throw Error("is not a pack");
+    if (!is_pack(*bytes)) throw Error("is not a pack; name a pack (.mtp)");
     const ByteSource& same = *bytes;
     PackFile file(std::move(bytes), PackFile::Index::kLater);
     file.expect_index();

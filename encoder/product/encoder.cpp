@@ -46,7 +46,8 @@ void check_decimals(int decimals) {
 
 // In lowest terms: headers hold 40 bits of each.
 microtin_axis checked(const microtin_axis& axis) {
-  expect(axis.numerator != 0 && axis.denominator != 0, "an axis has no step");
+  expect(axis.numerator != 0 && axis.denominator != 0,
+         "an axis has no step; set numerator and denominator above 0");
   return exact::reduced_axis(axis.offset, axis.numerator, axis.denominator);
 }
 
@@ -68,10 +69,12 @@ terrain::Reference raster_reference(const RasterData& posts) {
 
 terrain::Raster raster_of(RasterData posts) {
   expect(posts.heights.size() == uint64_t{posts.columns} * posts.rows,
-         "not as many heights as columns times rows");
+         "there are " + std::to_string(posts.heights.size()) +
+             " heights; use columns times rows, " +
+             std::to_string(uint64_t{posts.columns} * posts.rows));
   check_decimals(posts.decimals);
   for (const int64_t height : posts.heights) {
-    expect(height == kNoData || is_number(height), "a height is beyond 10^18");
+    expect(height == kNoData || is_number(height), "a height is beyond 10^18; use fewer decimals");
   }
   static_assert(kNoData == terrain::kVoidHeight, "void posts are taken as they are");
   return terrain::Raster{posts.columns,          posts.rows,       std::move(posts.heights),
@@ -88,7 +91,8 @@ terrain::Source cloud_of(const PointCloudData& points) {
   cloud.reference = reference_of(points.wkt, points.z_unit);
   cloud.points.reserve(points.points.size());
   for (const auto& [x, y, z] : points.points) {
-    expect(is_number(x) && is_number(y) && is_number(z), "a coordinate is beyond 10^18");
+    expect(is_number(x) && is_number(y) && is_number(z),
+           "a coordinate is beyond 10^18; use fewer decimals");
     cloud.points.push_back({x, y, z});
   }
   return cloud;
@@ -387,7 +391,7 @@ SourceTerrain SourceTerrain::from_file(const std::string& path) {
 }
 
 SourceTerrain SourceTerrain::from_files(const std::vector<std::string>& paths) {
-  expect(!paths.empty(), "no file of the terrain is named");
+  expect(!paths.empty(), "no file of the terrain is named; name one");
   for (const std::string& path : paths) importing::files_in(path);
   return SourceTerrain(std::make_shared<Content>(Content{nullptr, nullptr, paths}));
 }
@@ -449,7 +453,8 @@ Report encode_shard(const SourceTerrain& terrain, const Options& options, const 
   planned.tile_size = shard.tile_size;
   planned.z_step = shard.z_step;
   product::EncodeOptions all = pack_options_of(terrain, planned);
-  expect(shard.first_tile <= shard.last_tile, "a shard ends before its first tile");
+  expect(shard.first_tile <= shard.last_tile,
+         "a shard ends before its first tile; use a shard that plan_shards returned");
   const TiledTerrain tiled(terrain.content(), planned);
   all.reference = tiled.reference();
   files::OutputFile out(path);
@@ -465,7 +470,7 @@ Report encode_shard(const SourceTerrain& terrain, const Options& options, const 
 }
 
 Report merge_packs(const std::vector<std::string>& parts, const std::string& path) {
-  expect(!parts.empty(), "no shard or pack is named");
+  expect(!parts.empty(), "no shard or pack is named; name all parts");
   files::OutputFile out(path);
   product::MadePack pack = product::merged_pack(parts, path);
   pack.write(out);

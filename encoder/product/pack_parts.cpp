@@ -167,7 +167,8 @@ class Joined {
     }
     grid_ = {static_cast<uint32_t>(east - x_), static_cast<uint32_t>(north - y_), tile.width,
              tile.height};
-    if (has_too_many_tiles(grid_)) throw Error(parts[0].path + " and others: lie too far apart");
+    if (has_too_many_tiles(grid_))
+      throw Error(parts[0].path + " and others: lie too far apart; join packs of one plan");
     for (const Part& part : parts) expect_ends(part);
   }
 
@@ -199,7 +200,9 @@ class Joined {
     const bool ends_x = grid.x_max % grid.width == 0 || part.x + grid.x_max == x_ + grid_.x_max;
     const bool ends_y = grid.y_max % grid.height == 0 || part.y + grid.y_max == y_ + grid_.y_max;
     if (ends_x && ends_y) return;
-    throw Error(part.path + ": has narrower tiles at its end than the whole would have there");
+    throw Error(
+        part.path +
+        ": has narrower tiles at its end than the whole would have there; join packs of one plan");
   }
 
   uint32_t number_of(const Part& part, uint32_t column, uint32_t row) const {

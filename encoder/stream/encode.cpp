@@ -214,7 +214,9 @@ std::string name_of(Coding coding) {
 Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effort& effort,
                            Origin origin) {
   if (tin.vertices.size() > kMaxVertices) {
-    throw Error(std::to_string(tin.vertices.size()) + " vertices; the format holds 16,777,216");
+    throw Error(
+        std::to_string(tin.vertices.size()) +
+        " vertices; the format holds 16,777,216; increase the error, or make a pack (.mtp)");
   }
   Draft draft = chosen_draft(tin, metadata, effort, origin);
   DecodedTerrain decoded = on_our_own([&] { return DecodedTerrain(draft.stream); });

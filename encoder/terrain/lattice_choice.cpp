@@ -150,7 +150,7 @@ Lattice post_lattice_at(const Raster& frame, const NumberRange& heights, const A
   const Axis step = {0, z.numerator, z.denominator};
   const int decimals =
       std::max({group.decimals, group.needed_decimals, decimals_of(z), decimals_of(step)});
-  if (decimals > kMaxDecimals) throw Error("the heights have too many decimals");
+  if (decimals > kMaxDecimals) throw Error("the heights have too many decimals; round them");
   const Wide unit = power_of_ten(decimals), parts = static_cast<Wide>(z.denominator);
   const LatticeMap map{power_of_ten(decimals - group.decimals), -z.offset * unit / parts,
                        static_cast<Wide>(z.numerator) * unit / parts};

@@ -232,7 +232,7 @@ namespace {
 void refine(Raster& raster, int decimals) {
   if (decimals <= raster.decimals) return;
   if (!terrain::refine(raster.heights, power_of_ten(decimals - raster.decimals))) {
-    throw Error("the water level has too many decimals for these heights");
+    throw Error("the water level has too many decimals for these heights; round it");
   }
   raster.decimals = decimals;
 }
@@ -242,7 +242,8 @@ void refine(Raster& raster, int decimals) {
 void flood_voids(Raster& raster, Decimal level, const Raster* mask) {
   refine(raster, level.decimals);
   const std::optional<int64_t> height = number_of(level, raster.decimals);
-  if (!height) throw Error("the water level is out of range");
+  if (!height)
+    throw Error("the water level is out of range; use a height near those of the terrain");
   for (size_t i = 0; i < raster.heights.size(); ++i) {
     if (raster.heights[i] != kVoidHeight) continue;
     if (mask != nullptr && mask->heights[i] != power_of_ten(mask->decimals)) continue;

@@ -547,7 +547,7 @@ TEST_CASE("cli: date, lineage and water are noted in streams and packs") {
                 "1 2 999999999999 -9\n");
   for (const char* const output : {"p.mtin", "p.mtp --tile-vertices 60"}) {
     CHECK(session.failure("encode high.asc --water-level 0.000000001 -o " + std::string(output)) ==
-          "high.asc: the water level has too many decimals for these heights\n");
+          "high.asc: the water level has too many decimals for these heights; round it\n");
   }
   CHECK(session.failure("encode p.xyz --water-level 3 -o p.mtin") ==
         "p.xyz: --water-level is for rasters, and these are points\n");

@@ -262,7 +262,8 @@ TEST_CASE("limits: of posts, their heights and their decimals") {
   CHECK(!error_with(2, 65537).empty());
   for (const int64_t sign : {-1, 1}) {
     CHECK(error_of([&] { terrain_of(2, 2, sign * kMost); }).empty());
-    CHECK(error_of([&] { terrain_of(2, 2, sign * (kMost + 1)); }) == "a height is beyond 10^18");
+    CHECK(error_of([&] { terrain_of(2, 2, sign * (kMost + 1)); }) ==
+          "a height is beyond 10^18; use fewer decimals");
     for (const size_t axis : {0u, 1u, 2u}) {
       library::PointCloudData points;
       points.points = {{0, 0, 0}};
@@ -270,7 +271,7 @@ TEST_CASE("limits: of posts, their heights and their decimals") {
       CHECK(error_of([&] { (void)library::SourceTerrain{points}; }).empty());
       points.points[0][axis] += sign;
       CHECK(error_of([&] { (void)library::SourceTerrain{points}; }) ==
-            "a coordinate is beyond 10^18");
+            "a coordinate is beyond 10^18; use fewer decimals");
     }
   }
   for (const auto& [decimals, message] :

@@ -268,7 +268,7 @@ TEST_CASE("mosaic: files that do not go together are refused by name") {
   session.write("far.asc", grid(106, 50, "1 2 99999999999\n4 5 6"));
   session.write("fine.asc", grid(112, 50, "1 2 0.000000001\n4 5 6"));
   CHECK(session.failure("encode far.asc fine.asc -o t.mtin") ==
-        "far.asc: its heights do not fit the decimals of the other files\n");
+        "far.asc: its heights do not fit the decimals of the other files; round them\n");
   CHECK(session.run("encode a.asc size.asc -o size.asc").code == 1);
   CHECK(session.read("size.asc") == grid(106, 50, "1 2 3\n4 5 6", "2.01"));
 }

@@ -144,7 +144,8 @@ TEST_CASE("corridor: feet are not metres, and poles are refused") {
   CHECK(!holds(corridor_of(line, 10, Unit::kUnknown), axis, 50, 11));
   const RealLine north = {{Decimal{0, 0}, Decimal{895, 1}}};
   CHECK_THROWS_WITH_AS(corridor_of(north, 10, Unit::kDegree),
-                       "the corridor comes within a degree of a pole", Error);
+                       "the corridor comes within a degree of a pole; end the route farther away",
+                       Error);
 }
 
 }  // namespace microtin::tests

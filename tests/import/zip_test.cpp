@@ -100,7 +100,7 @@ TEST_CASE("zip: tiles of half an arc second, and none that so few bytes cannot h
   CHECK(import_zip("a.zip", zip({fine})).width == 7201);
   Member forged = fine;
   forged.packed.resize(1000);
-  CHECK(error(forged) == "a.zip: the .hgt file in it is damaged");
+  CHECK(error(forged) == "a.zip: the .hgt file in it is damaged; copy the file again");
 }
 
 TEST_CASE("zip: every error is reported") {
@@ -110,8 +110,9 @@ TEST_CASE("zip: every error is reported") {
     change(one);
     return error(one);
   };
-  CHECK(error("") == "a.zip: is not a zip archive, or cut off");
-  CHECK(error(std::string(70000, 'x')) == "a.zip: is not a zip archive, or cut off");
+  CHECK(error("") == "a.zip: is not a zip archive, or cut off; copy the file again");
+  CHECK(error(std::string(70000, 'x')) ==
+        "a.zip: is not a zip archive, or cut off; copy the file again");
   CHECK(error(member("a.asc", "x")) ==
         "a.zip: holds no .hgt file; other formats are read unpacked");
   CHECK(error(zip({good, good})) ==
@@ -119,14 +120,15 @@ TEST_CASE("zip: every error is reported") {
   CHECK(error(member("N43E007.hgt", "abc")).find("a.zip/N43E007.hgt: has 3 bytes") == 0);
   CHECK(error(member("\x01.hgt", tile())).find("a.zip/?.hgt: the file's name has no position") ==
         0);
-  CHECK(with([](Member& m) { m.flags = 1; }) == "a.zip: the .hgt file is encrypted");
+  CHECK(with([](Member& m) { m.flags = 1; }) ==
+        "a.zip: the .hgt file is encrypted: unpack it first");
   CHECK(with([](Member& m) { m.method = 12; }) ==
         "a.zip: the .hgt file is packed by method 12; stored and deflated ones are read: unpack it "
         "first");
   CHECK(with([](Member& m) { m.size = 233323203; }) ==
         "a.zip: the .hgt file would have 233323203 bytes, more than 10801 x 10801 posts: unpack it "
         "first");
-  const std::string damaged = "a.zip: the .hgt file in it is damaged";
+  const std::string damaged = "a.zip: the .hgt file in it is damaged; copy the file again";
   CHECK(with([](Member& m) { m.size -= 1; }) == damaged);
   CHECK(with([](Member& m) { m.size += 1; }) == damaged);
   CHECK(with([](Member& m) { m.check ^= 1; }) == damaged);
@@ -134,10 +136,10 @@ TEST_CASE("zip: every error is reported") {
   CHECK(with([](Member& m) { m.packed.pop_back(); }) == damaged);
   CHECK(with([](Member& m) { m.method = kStored; }) == damaged);
   std::string whole = zip({good});
-  CHECK(error(whole.replace(0, 2, "xx")) == "a.zip: the archive is damaged");
+  CHECK(error(whole.replace(0, 2, "xx")) == "a.zip: the archive is damaged; copy the file again");
   whole = zip({good});
   CHECK(error(whole.replace(whole.find("PK\1\2"), 2, "xx")) ==
-        "a.zip: the archive's list is damaged");
+        "a.zip: the archive's list is damaged; copy the file again");
   CHECK(error(whole.substr(whole.find("PK\5\6"))).find("a.zip: cut off: has 22 bytes") == 0);
 }
 

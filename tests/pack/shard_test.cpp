@@ -112,9 +112,11 @@ TEST_CASE("shards: missing, duplicate, foreign and damaged shards are refused") 
   const std::string all = std::to_string(last), first = shards.write({0, 2}),
                     rest = shards.write({3, last});
   REQUIRE(shards.refusal({rest, first}).empty());
-  CHECK(shards.refusal({first}) == "tiles 3 to " + all + " are in no shard");
-  CHECK(shards.refusal({rest}) == "tiles 0 to 2 are in no shard");
-  CHECK(shards.refusal({first, shards.write({4, last})}) == "tile 3 is in no shard");
+  CHECK(shards.refusal({first}) ==
+        "tiles 3 to " + all + " are in no shard; name their shards, too");
+  CHECK(shards.refusal({rest}) == "tiles 0 to 2 are in no shard; name their shards, too");
+  CHECK(shards.refusal({first, shards.write({4, last})}) ==
+        "tile 3 is in no shard; name its shard, too");
   CHECK(shards.refusal({first, rest, first}) == "0-2: tile 0 is also in 0-2");
   CHECK(shards.refusal({first, shards.write({2, last})}) == "2-" + all + ": tile 2 is also in 0-2");
 
@@ -142,7 +144,8 @@ TEST_CASE("shards: missing, duplicate, foreign and damaged shards are refused") 
     CHECK(!shards.refusal({first, bad}).empty());
   }
   write_file(bad, {'n', 'o'});
-  CHECK(shards.refusal({bad}) == "bad: not a shard that this version of microtin made");
+  CHECK(shards.refusal({bad}) ==
+        "bad: not a shard that this version of microtin made; encode it again");
 }
 
 namespace {
@@ -214,7 +217,7 @@ TEST_CASE("shards: no pack has more tiles than can be made") {
   const std::string forged = shards.folder() / "forged";
   constexpr size_t kLargestX = 20;
   write_file(forged, with_head(good, kLargestX, {0, 0, 0x90, 1}));  // 2^20 columns
-  CHECK(shards.refusal({forged}) == "tiles 2 to 1048575 are in no shard");
+  CHECK(shards.refusal({forged}) == "tiles 2 to 1048575 are in no shard; name their shards, too");
   write_file(forged, with_head(good, kLargestX, {1, 0, 0x90, 1}));
   CHECK(shards.refusal({forged}) == "forged: malformed: a rule of the format is broken");
 }

@@ -335,7 +335,8 @@ TEST_CASE("render: sizes out of range are refused") {
     CHECK_THROWS_WITH_AS(render_png(triangle, width), "a picture is 200 to 8192 pixels wide",
                          Error);
   }
-  CHECK_THROWS_WITH_AS(render_png(Portrait(), 200), "there is nothing to draw", Error);
+  CHECK_THROWS_WITH_AS(render_png(Portrait(), 200),
+                       "there is nothing to draw; the terrain needs a triangle", Error);
   Portrait titled = triangle;
   titled.title = "a\xE2\x82\xAC";
   CHECK_THROWS_WITH_AS(render_png(titled, 200),

@@ -435,11 +435,11 @@ TEST_CASE("library: what makes no sense is refused with a sentence") {
   CHECK(error_of(posts, options) ==
         "date: 'yesterday' is not allowed; use a date such as 2026, 2026-11 or 2026-11-21");
   posts.heights.pop_back();
-  CHECK(error_of(posts, {}) == "not as many heights as columns times rows");
+  CHECK(error_of(posts, {}) == "there are 80 heights; use columns times rows, 81");
   posts.heights.push_back(kNoData + 1);
-  CHECK(error_of(posts, {}) == "a height is beyond 10^18");
+  CHECK(error_of(posts, {}) == "a height is beyond 10^18; use fewer decimals");
   posts.heights.back() = 0;
   posts.x.denominator = 0;
-  CHECK(error_of(posts, {}) == "an axis has no step");
+  CHECK(error_of(posts, {}) == "an axis has no step; set numerator and denominator above 0");
   CHECK_THROWS_AS(SourceTerrain::from_file("/nowhere/at.asc"), std::runtime_error);
 }

@@ -250,7 +250,8 @@ TEST_CASE("binary numbers: what is refused, and where") {
                     "NORTH, 0, -HEIGHT, GDAL's order");
   CHECK_THROWS_WITH(posts({10, 0, 400000, 0, -10, 5000000}), doctest::Contains("GDAL's order"));
   CHECK_THROWS(posts({0, -1, 0, 0, 0, -1}));
-  CHECK_THROWS_WITH(posts({0, 1, 0, 0, 0, 0}), "transform: cells have no extent");
+  CHECK_THROWS_WITH(posts({0, 1, 0, 0, 0, 0}),
+                    "transform: cells have no extent; give them a width and a height above 0");
   CHECK_THROWS_WITH(posts({std::nan(""), 1, 0, 0, 0, -1}), "transform: a number is out of range");
   heights[kBowlColumns + 7] = 1e300;
   CHECK_THROWS_WITH(

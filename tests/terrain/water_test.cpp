@@ -42,7 +42,7 @@ TEST_CASE("water: a level with more decimals than the heights refines these") {
   CHECK(raster.heights == std::vector<int64_t>{100, 25, -700, 25});
   Raster high = raster_of(2, {1000000000000000000, 1, 1, kNoData});
   CHECK_THROWS_WITH_AS(flood_voids(high, {5, 1}, nullptr),
-                       "the water level has too many decimals for these heights", Error);
+                       "the water level has too many decimals for these heights; round it", Error);
 }
 
 TEST_CASE("water: masks of other posts or with other numbers are refused") {

@@ -130,7 +130,7 @@ def plan_shards(
     a few tiles. Options are those of `encode_pack`."""
     filled, caller = options_of(max_error, crs, tile_vertices=tile_vertices, tile_size=tile_size, **options)
     if not 0 < count < 1 << 20:
-        raise Error(f"count: {count} is out of range")
+        raise Error(f"count: {count} is out of range; use 1 to 1048575")
     found = (_library.Shard * count)()
     found[0].size = ctypes.sizeof(_library.Shard)
     planned = ctypes.c_uint32()

@@ -101,7 +101,7 @@ def options_of(
         if name not in allowed:
             raise TypeError(f"there is no option {name}")
         if not 0 <= number < 1 << 32:
-            raise Error(f"{name}: {number} is out of range")
+            raise Error(f"{name}: {number} is out of range; use 0 to 4294967295")
     caller = Caller(progress)
     filled = _library.Options(
         max_error=decimal_of(max_error),

@@ -50,7 +50,7 @@ def _raster_of(
     if heights.dtype.kind in "iu":
         beyond = numpy.abs(heights.astype(numpy.float64)) > 2**53
         if (beyond if nodata is None else beyond & (heights != nodata)).any():
-            raise Error("a height is beyond 2^53")
+            raise Error("a height is beyond 2^53; use floats, or a larger unit")
     if heights.dtype.kind not in "iuf" or heights.dtype.itemsize > 8:
         raise Error(f"heights are integers or floats of up to 64 bits, not {heights.dtype}")
     if nodata is not None and heights.dtype == numpy.float16:
