@@ -136,6 +136,14 @@ void expect_kept(const Original::Judgement& judgement, const std::string& input)
   if (judgement.water_moved != 0) throw Error(input + ": water of the source is not at its level");
 }
 
+void expect_lines(const FoundBreaklines& lines, const VerifyRequest& request) {
+  const std::string& file = request.options.breaklines;
+  if (lines.missing) throw Error(request.input + ": breaklines: " + *lines.missing);
+  if (!lines.wrong_marks) return;
+  throw Error(request.input + ": breaklines: " + *lines.wrong_marks + "; encode it again with " +
+              parameter("breaklines") + ' ' + file + ", or name the file of lines that it has");
+}
+
 }  // namespace
 
 void run_verify(const VerifyRequest& request) {
@@ -155,7 +163,7 @@ void run_verify(const VerifyRequest& request) {
   }
   std::optional<FoundBreaklines> lines;
   if (!request.options.breaklines.empty()) {
-    lines = original.breaklines(read_breaklines(request.options.breaklines).lines);
+    lines = original.breaklines(read_breaklines(request.options.breaklines));
     report.emplace_back("breaklines", text_of(*lines, document.metadata().placement));
   }
   add_warnings(report, original);
@@ -163,7 +171,7 @@ void run_verify(const VerifyRequest& request) {
   expect_kept(judgement, input);
   if (request.never_below) expect_side(BoundSide::kNeverBelow, judgement, input);
   expect_stated(judgement, document.metadata(), input);
-  if (lines && lines->missing) throw Error(input + ": breaklines: " + *lines->missing);
+  if (lines) expect_lines(*lines, request);
   if (!told) throw ReportLost(input + ": keeps its promises, but nobody reads the report");
 }
 

@@ -209,7 +209,7 @@ Verification Original::compare(const std::optional<Decimal>& bound, const Progre
   return verify(pack, *std::get<std::unique_ptr<RasterReader>>(source), bound, progress, visit);
 }
 
-FoundBreaklines Original::breaklines(const std::vector<RealLine>& lines) const {
+FoundBreaklines Original::breaklines(const BreaklineFile& file) const {
   const Metadata metadata = document_.metadata();
   const Placement& lattice = metadata.placement;
   const std::optional<Decimal> bound = promise().bound;
@@ -219,9 +219,13 @@ FoundBreaklines Original::breaklines(const std::vector<RealLine>& lines) const {
                             exact::step_of(lattice.z));
   }
   if (const auto* const whole = std::get_if<Source>(&source_)) {
-    return find_breaklines(document_.stream()->terrain.mesh(),
-                           lines_over(terrain::line_ground_of(*whole, lattice), lines, lattice),
-                           room, lattice);
+    const DecodedTerrain& decoded = document_.stream()->terrain;
+    const std::vector<LatticeLine> lines =
+        lines_over(terrain::line_ground_of(*whole, lattice), file.lines, lattice);
+    FoundBreaklines found = find_breaklines(decoded.mesh(), lines, room, lattice);
+    found.wrong_marks =
+        compare_marks(decoded.mesh(), decoded.lines(), lines, file.classes, room, lattice);
+    return found;
   }
   const auto* const raster =
       std::get_if<std::unique_ptr<RasterReader>>(&std::get<OpenSource>(source_));
@@ -229,8 +233,9 @@ FoundBreaklines Original::breaklines(const std::vector<RealLine>& lines) const {
     throw Error(document_.path() + ": is a pack of points, which has no " +
                 parameter("breaklines") + "; leave it out");
   }
-  return with_file_context(
-      document_.path(), [&] { return find_breaklines(*document_.pack(), **raster, lines, room); });
+  return with_file_context(document_.path(), [&] {
+    return find_breaklines(*document_.pack(), **raster, file.lines, room);
+  });
 }
 
 Original::Judgement Original::judge(const Progress& progress) const {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "encoder/export/queries.hpp"
+#include "encoder/import/breaklines.hpp"
 #include "encoder/import/prepared_terrain.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
@@ -113,9 +114,9 @@ class Original {
   // Throws Error also if only one of document and terrain has bounds of an error map.
   Judgement judge(const Progress& progress) const;
 
-  // Looks for lines among the edges, at heights within the bound that is promised. Throws Error for
-  // a pack.
-  FoundBreaklines breaklines(const std::vector<RealLine>& lines) const;
+  // Looks for lines among the edges, at heights within the bound that is promised, and compares the
+  // marks of a stream with them. Throws Error for a pack of points.
+  FoundBreaklines breaklines(const BreaklineFile& file) const;
 
  private:
   const Document& document_;

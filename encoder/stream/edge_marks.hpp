@@ -15,13 +15,6 @@
 
 namespace microtin::stream {
 
-// Vertices of a mesh, each with an edge to the next one. The first is also the last of a closed
-// line.
-struct MarkedLine {
-  LineClass kind = LineClass::kOther;
-  std::vector<uint32_t> vertices;
-};
-
 // The marks of a mesh's edges, in memory of their own. The mesh must outlive them.
 class EdgeMarks {
  public:

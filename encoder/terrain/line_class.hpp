@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "encoder/layers.hpp"
 
@@ -39,6 +40,13 @@ std::optional<LineClass> line_class_named(std::string_view name);
 
 // The names of all classes, with commas.
 std::string names_of_line_classes();
+
+// Vertices of a mesh, each with an edge to the next one. The first is also the last of a closed
+// line.
+struct MarkedLine {
+  LineClass kind = LineClass::kOther;
+  std::vector<uint32_t> vertices;
+};
 
 }  // namespace microtin::terrain
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Walks along a line from vertex to vertex of a mesh, wherever edges follow the line.
+// Walks along a line from vertex to vertex of a mesh, wherever edges follow the line, or marked
+// edges.
 #include "encoder/verify/breaklines.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -113,15 +115,23 @@ class NearbyEdges {
   Neighbours neighbours_;
 };
 
+// Which edges a chain may have.
+using EdgeTest = std::function<bool(uint32_t from, uint32_t to)>;
+
+bool any_edge(uint32_t /*from*/, uint32_t /*to*/) {
+  return true;
+}
+
 // A search for a chain of edges along one line.
 class LineSearch {
  public:
   LineSearch(const NearbyEdges& edges, const LatticeLine& line, const std::optional<LineRoom>& room)
-      : edges_(edges), line_(line), room_(line.has_heights() ? room : std::nullopt) {}
-
-  // Says whether there is a chain; if so, adds it.
-  bool find(FoundBreaklines& found) {
+      : edges_(edges), line_(line), room_(line.has_heights() ? room : std::nullopt) {
     find_feet();
+  }
+
+  // Says whether there is a chain of edges that pass the test; if so, adds it.
+  bool find(const EdgeTest& may_use, FoundBreaklines& found) {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       const Node& node = nodes_[i];
       if (!follows(node, {node.vertex, 0}) || !keeps_height(node)) continue;
@@ -134,9 +144,24 @@ class LineSearch {
         return true;
       }
       farthest_ = std::max(farthest_, nodes_[i].along);
-      go_on(i);
+      go_on(i, may_use);
     }
     return false;
+  }
+
+  // Calls visit(vertex, vertex) for each edge that follows the line, from both ends.
+  template <class Visit>
+  void visit_edges(const Visit& visit) const {
+    for (const Node& node : nodes_) {
+      for (const uint32_t neighbour : edges_.neighbours(node.vertex)) {
+        const auto at = by_vertex_.find(neighbour);
+        if (at == by_vertex_.end()) continue;
+        const auto is_next = [&](std::size_t next) { return follows(node, nodes_[next]); };
+        if (std::any_of(at->second.begin(), at->second.end(), is_next)) {
+          visit(node.vertex, neighbour);
+        }
+      }
+    }
   }
 
   LinePlace farthest() const { return line_.at(farthest_); }
@@ -196,11 +221,11 @@ class LineSearch {
     order_.push_back(node);
   }
 
-  void go_on(std::size_t from) {
+  void go_on(std::size_t from, const EdgeTest& may_use) {
     const Node node = nodes_[from];
     for (const uint32_t neighbour : edges_.neighbours(node.vertex)) {
       const auto at = by_vertex_.find(neighbour);
-      if (at == by_vertex_.end()) continue;
+      if (at == by_vertex_.end() || !may_use(node.vertex, neighbour)) continue;
       for (const std::size_t next : at->second) {
         if (parent_[next] != kUnreached) continue;
         if (follows(node, nodes_[next]) && keeps_height(nodes_[next])) reach(next, from);
@@ -276,6 +301,40 @@ class LineSearch {
   double farthest_ = 0;
 };
 
+constexpr uint32_t kNoLine = UINT32_MAX;
+
+// An edge with a mark.
+struct MarkedEdge {
+  LineClass kind;
+  uint32_t line = kNoLine;  // the first one of its class that the edge follows
+};
+
+// Marked edges by their vertices, the smaller one first.
+using MarkedEdges = std::map<std::pair<uint32_t, uint32_t>, MarkedEdge>;
+
+std::pair<uint32_t, uint32_t> key_of_edge(uint32_t a, uint32_t b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+MarkedEdges edges_of(const std::vector<MarkedLine>& marks) {
+  MarkedEdges edges;
+  for (const MarkedLine& path : marks) {
+    for (std::size_t i = 1; i < path.vertices.size(); ++i) {
+      edges.emplace(key_of_edge(path.vertices[i - 1], path.vertices[i]), MarkedEdge{path.kind});
+    }
+  }
+  return edges;
+}
+
+// Makes a line that of the edges that follow it and have its class.
+void claim_edges(const LineSearch& search, uint32_t line, LineClass kind, MarkedEdges& marked) {
+  search.visit_edges([&](uint32_t a, uint32_t b) {
+    const auto at = marked.find(key_of_edge(a, b));
+    if (at == marked.end() || at->second.kind != kind) return;
+    at->second.line = std::min(at->second.line, line);
+  });
+}
+
 }  // namespace
 
 FoundBreaklines find_breaklines(const microtin_mesh* mesh, const std::vector<LatticeLine>& lines,
@@ -285,11 +344,44 @@ FoundBreaklines find_breaklines(const microtin_mesh* mesh, const std::vector<Lat
   for (const LatticeLine& line : lines) {
     found.lines.insert(line.number());
     LineSearch search(edges, line, room);
-    if (search.find(found) || found.missing) continue;
+    if (search.find(any_edge, found) || found.missing) continue;
     found.missing = "line " + std::to_string(line.number() + 1) + " has no edges from " +
                     terrain::place_text(search.farthest(), lattice) + " on";
   }
   return found;
+}
+
+std::optional<std::string> compare_marks(const microtin_mesh* mesh,
+                                         const std::vector<MarkedLine>& marks,
+                                         const std::vector<LatticeLine>& lines,
+                                         const std::vector<LineClass>& classes,
+                                         const std::optional<LineRoom>& room,
+                                         const Placement& lattice) {
+  const NearbyEdges edges(mesh, lines);
+  MarkedEdges marked = edges_of(marks);
+  for (const LatticeLine& line : lines) {  // in plan alone: chains keep the heights
+    claim_edges({edges, line, std::nullopt}, line.number(), classes[line.number()], marked);
+  }
+  for (const auto& [ends, edge] : marked) {
+    if (edge.line != kNoLine) continue;
+    return "the edge from " + terrain::place_text(edges.vertex(ends.first), lattice) + " to " +
+           terrain::place_text(edges.vertex(ends.second), lattice) + " is marked as " +
+           std::string(name_of(edge.kind)) + ", and follows no line of this class";
+  }
+  for (const LatticeLine& line : lines) {
+    const LineClass kind = classes[line.number()];
+    const auto is_marked = [&](uint32_t a, uint32_t b) {
+      const auto at = marked.find(key_of_edge(a, b));
+      return at != marked.end() && (at->second.kind == kind || at->second.line < line.number());
+    };
+    LineSearch search(edges, line, room);
+    FoundBreaklines found;
+    if (search.find(is_marked, found)) continue;
+    return "line " + std::to_string(line.number() + 1) + " has no edges marked as " +
+           std::string(name_of(kind)) + " from " + terrain::place_text(search.farthest(), lattice) +
+           " on";
+  }
+  return std::nullopt;
 }
 
 void add(const FoundBreaklines& part, FoundBreaklines& all) {

@@ -11,6 +11,7 @@
 
 #include "encoder/layers.hpp"
 #include "encoder/terrain/breaklines.hpp"
+#include "encoder/terrain/line_class.hpp"
 #include "microtin/microtin.h"
 
 namespace microtin::verifying {
@@ -27,7 +28,8 @@ struct FoundBreaklines {
   double max_shift = 0;      // between a line and its edges, in lattice steps
   double max_error = 0;      // between their heights, in z steps; of lines that have heights
   std::vector<FoundChain> chains;
-  std::optional<std::string> missing;  // which line has no such chain, and where
+  std::optional<std::string> missing;      // which line has no such chain, and where
+  std::optional<std::string> wrong_marks;  // what compare_marks found in a stream, if it was called
 };
 
 // What was found in all parts of a terrain.
@@ -38,6 +40,17 @@ void add(const FoundBreaklines& part, FoundBreaklines& all);
 // O(triangles + vertices near the lines * their degrees).
 FoundBreaklines find_breaklines(const microtin_mesh* mesh, const std::vector<LatticeLine>& lines,
                                 const std::optional<LineRoom>& room, const Placement& lattice);
+
+// Compares the marks of a mesh's edges with lines. `classes` has the class of each line by its
+// number. Each marked edge must follow a line of its class. Along each line find_breaklines must
+// find edges with the class of this line, or with that of an earlier line that they follow, too.
+// Returns what breaks this rule, and where, or nothing. Takes as long as find_breaklines.
+std::optional<std::string> compare_marks(const microtin_mesh* mesh,
+                                         const std::vector<MarkedLine>& marks,
+                                         const std::vector<LatticeLine>& lines,
+                                         const std::vector<LineClass>& classes,
+                                         const std::optional<LineRoom>& room,
+                                         const Placement& lattice);
 
 }  // namespace microtin::verifying
 

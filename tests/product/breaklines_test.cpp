@@ -8,13 +8,18 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <iterator>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "encoder/stream/decoded_terrain.hpp"
+#include "encoder/stream/edge_marks.hpp"
+#include "encoder/terrain/line_class.hpp"
 #include "microtin/surface.hpp"
 #include "tests/support/join.hpp"
+#include "tests/support/point_sets.hpp"
 #include "tests/support/session.hpp"
 
 using namespace microtin::tests;
@@ -462,6 +467,150 @@ TEST_CASE("breaklines: verify finds lines that are no edges, and heights beyond 
   const std::vector<Line> high = placed({{{3, 10.5, 500}, {55, 31, 500}}}, 10);
   write_lines(session, high);
   CHECK(session.run("verify t.mtin t.asc --units metre --breaklines lines.csv").code == 1);
+}
+
+namespace {
+
+// Lines apart from each other, of three classes.
+std::vector<Line> apart() {
+  return {{{4, 5, -1}, {30, 12.4, -1}, {52, 6, -1}},
+          {{5, 40, -1}, {22, 24, -1}},
+          {{30, 40, -1}, {56, 22, -1}, {50, 14, -1}}};
+}
+constexpr LineClass kApart[] = {LineClass::kRidge, LineClass::kWater, LineClass::kOther};
+
+void write_apart(const Session& session) {
+  const std::vector<Line> lines = placed(apart(), 10);
+  std::string text = "x,y,line,class\n";
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (const Place& p : lines[i]) {
+      text += std::to_string(p[0]) + ',' + std::to_string(p[1]) + ',' + std::to_string(i) + ',' +
+              std::string(name_of(kApart[i])) + '\n';
+    }
+  }
+  session.write("lines.csv", text);
+}
+
+std::vector<MarkedLine> lines_of(const std::string& stream) {
+  return stream::DecodedTerrain({stream.begin(), stream.end()}).lines();
+}
+
+// Other marks behind the same stream.
+void write_marked(const Session& session, const std::string& from,
+                  const std::vector<MarkedLine>& lines, const std::string& to) {
+  const std::string old = session.read(from);
+  std::vector<uint8_t> stream(old.begin(), old.end());
+  const stream::DecodedTerrain decoded(stream);
+  stream.resize(stream.size() - decoded.mark_bytes());
+  stream::append_edge_marks(decoded.mesh(), lines, stream);
+  session.write(to, {stream.begin(), stream.end()});
+}
+
+// Whether the edges of each class are near lines of this class, and lead along them.
+bool marks_lines(const library::Mesh& mesh, const std::vector<MarkedLine>& marks) {
+  const bool is_class = std::all_of(marks.begin(), marks.end(), [](const MarkedLine& mark) {
+    return std::count(std::begin(kApart), std::end(kApart), mark.kind) != 0;
+  });
+  if (!is_class) return false;
+  const std::vector<Line> lines = placed(apart(), 10);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    library::Mesh part;
+    part.vertices = mesh.vertices;
+    std::size_t edges = 0;
+    for (const MarkedLine& mark : marks) {
+      if (mark.kind != kApart[i]) continue;
+      for (std::size_t k = 1; k < mark.vertices.size(); ++k, ++edges) {
+        part.triangles.push_back({mark.vertices[k - 1], mark.vertices[k], mark.vertices[k]});
+      }
+    }
+    std::size_t near = 0;
+    for (const auto& [a, b] : edges_near(part, lines[i], kShift * 10)) near += a != b ? 1 : 0;
+    if (near != edges || !follows(part, lines[i], 10, 0)) return false;
+  }
+  return true;
+}
+
+// One edge less, another class, or an edge more.
+std::vector<MarkedLine> changed(std::vector<MarkedLine> lines, const library::Mesh& mesh,
+                                Random& random) {
+  MarkedLine& line = lines[random.below(static_cast<uint32_t>(lines.size()))];
+  const uint32_t at = random.below(static_cast<uint32_t>(line.vertices.size() - 1));
+  const std::vector<uint32_t> edge = {line.vertices[at], line.vertices[at + 1]};
+  const auto kind = static_cast<LineClass>(1 + random.below(4));
+  const uint32_t what = random.below(3);
+  if (what == 0) {
+    const auto middle = line.vertices.begin() + at + 1;
+    const MarkedLine rest{line.kind, {middle, line.vertices.end()}};
+    line.vertices.erase(middle, line.vertices.end());
+    lines.push_back(rest);
+  } else if (what == 1) {
+    lines.insert(lines.begin(), {kind, edge});
+  } else {
+    const auto& t = mesh.triangles[random.below(static_cast<uint32_t>(mesh.triangles.size()))];
+    lines.push_back({kind, {t[0], t[1]}});
+  }
+  return lines;
+}
+
+}  // namespace
+
+TEST_CASE("breaklines: verify compares the marks with the lines") {
+  const Session session;
+  write_terrain(session, 10);
+  write_apart(session);
+  expect_run(session, "encode t.asc --units metre --max-error 9 --breaklines lines.csv -o t.mtin");
+  const library::Mesh mesh = mesh_of(session, "t.mtin");
+  const std::string bytes = session.read("t.mtin");
+  const std::vector<MarkedLine> lines = lines_of(bytes);
+  CHECK(marks_lines(mesh, lines));
+  write_marked(session, "t.mtin", lines, "same.mtin");
+  CHECK(session.read("same.mtin") == bytes);
+  Random random(4);
+  std::size_t refused = 0;
+  for (int i = 0; i < 40; ++i) {
+    const std::vector<MarkedLine> other = changed(lines, mesh, random);
+    write_marked(session, "t.mtin", other, "other.mtin");
+    const std::string verify = "verify other.mtin t.asc --units metre --breaklines lines.csv";
+    const Session::Result result = session.run(verify);
+    const bool is_right = marks_lines(mesh, lines_of(session.read("other.mtin")));
+    CHECK_MESSAGE((result.code == 0) == is_right, result.err);
+    if (is_right) continue;
+    ++refused;
+    CHECK(contains(result.err, "; encode it again with --breaklines lines.csv, or name "));
+  }
+  CHECK(refused > 15);
+}
+
+TEST_CASE("breaklines: verify names the mark or the line that is wrong") {
+  const Session session;
+  write_terrain(session, 10);
+  write_apart(session);
+  const std::string options = "t.asc --units metre --max-error 9 --breaklines lines.csv -o t.mtin";
+  expect_run(session, "encode " + options);
+  const auto refusal = [&](const std::vector<MarkedLine>& lines) {
+    write_marked(session, "t.mtin", lines, "other.mtin");
+    return session.failure("verify other.mtin t.asc --units metre --breaklines lines.csv");
+  };
+  CHECK(
+      contains(refusal({}), "other.mtin: breaklines: line 1 has no edges marked as ridge from x "));
+  const std::string bytes = session.read("t.mtin");
+  std::vector<MarkedLine> lines = lines_of(bytes);
+  for (MarkedLine& line : lines) line.kind = LineClass::kWall;
+  CHECK(contains(refusal(lines), " is marked as wall, and follows no line of this class; encode"));
+}
+
+TEST_CASE("breaklines: an edge of several lines has the class of the first one") {
+  const Session session;
+  write_terrain(session, 10);
+  const auto verify = [&](const std::string& first, const std::string& second) {
+    session.write("lines.csv", "x,y,class\n1030,2100," + first + "\n1500,2100," + first +
+                                   "\n\n1030,2100," + second + "\n1500,2100," + second + '\n');
+    return session.run("verify t.mtin t.asc --units metre --breaklines lines.csv");
+  };
+  verify("dam", "road");
+  expect_run(session, "encode t.asc --units metre --max-error 9 --breaklines lines.csv -o t.mtin");
+  CHECK(verify("dam", "road").code == 0);
+  CHECK(contains(verify("road", "dam").err, "line 1 has no edges marked as road"));
 }
 
 TEST_CASE("breaklines: GeoJSON and text say the same lines") {
