@@ -257,7 +257,7 @@ const RasterReader& raster_of(const Job& job, const PackSource& source) {
 // Each of these writes what is asked for and returns what to say of it.
 std::string encode_tiles(const Job& job, OutputFile& out) {
   const OpenSource opened = open_source(job);
-  const RasterReader& raster = raster_of(job, source_of(opened));
+  const RasterReader& raster = raster_of(job, pack_source_of(opened));
   const ShardReport shard = with_file_context(job.input, [&] {
     ProgressBar bar;
     return encode_shard(raster, job, *job.tiles, out, bar.progress());
@@ -275,7 +275,7 @@ std::string text_before(const EncodedPoints& made, const Job& job, const std::st
 std::string encode_tiled(const Job& job, OutputFile& out) {
   if (job.tiles) return encode_tiles(job, out);
   const OpenSource opened = open_source(job);
-  const PackSource source = source_of(opened);
+  const PackSource source = pack_source_of(opened);
   const SourceFacts facts = announced(job, source);
   MadePack pack = with_file_context(job.input, [&] {
     ProgressBar bar;
@@ -376,7 +376,7 @@ void run_plan(const EncodeRequest& request, uint32_t shards) {
   refuse_overwriting(inputs_of(request), "-");
   take_breaklines(request.options, job);
   const OpenSource source = open_source(job);
-  const RasterReader& raster = raster_of(job, source_of(source));
+  const RasterReader& raster = raster_of(job, pack_source_of(source));
   const std::vector<ShardPlan> plans = with_file_context(job.input, [&] {
     ProgressBar bar;
     return plan_shards(raster, job, shards, bar.progress());

@@ -206,7 +206,7 @@ class TiledTerrain {
       const importing::Preparation preparation = preparation_of(content.files, options);
       opened_ =
           importing::prepared_source(content.files[0], preparation, own_map(content, preparation));
-      source_ = product::source_of(opened_);
+      source_ = product::pack_source_of(opened_);
       return;
     }
     settled_.emplace(content, options);

@@ -11,7 +11,7 @@
 
 namespace microtin::product {
 
-PackSource source_of(const OpenSource& source) {
+PackSource pack_source_of(const OpenSource& source) {
   if (const auto* const cloud = std::get_if<PointCloud>(&source)) return cloud;
   return std::get<std::unique_ptr<RasterReader>>(source).get();
 }

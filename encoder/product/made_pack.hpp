@@ -27,7 +27,7 @@ namespace microtin::product {
 using PackSource = std::variant<const RasterReader*, const PointCloud*>;
 
 // The source must outlive the result.
-PackSource source_of(const OpenSource& source);
+PackSource pack_source_of(const OpenSource& source);
 
 // The raster of a source. Throws Error if it is points, which have no shards.
 const RasterReader& raster_with_shards(const PackSource& source);
