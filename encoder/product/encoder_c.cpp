@@ -32,6 +32,10 @@ struct microtin_surface {
   std::vector<double> places = {};
   std::vector<uint8_t> known = {};
   std::vector<microtin_phase> phases = {};
+  std::vector<Line> lines = {};  // handed out last, with what points into them
+  std::vector<const char*> classes = {};
+  std::vector<uint64_t> line_vertices = {};
+  std::vector<double> coordinates = {};
 };
 
 namespace {
@@ -266,6 +270,22 @@ microtin_status hand_out(microtin_surface* surface, microtin_triangles* triangle
                   mesh.triangles.empty() ? nullptr : mesh.triangles.front().data()},
                  triangles);
   });
+}
+
+microtin_lines hand_out(microtin_surface& surface, std::vector<Line> lines) {
+  surface.lines = std::move(lines);
+  surface.classes.clear();
+  surface.line_vertices.clear();
+  surface.coordinates.clear();
+  for (const Line& line : surface.lines) {
+    surface.classes.push_back(line.line_class.c_str());
+    surface.line_vertices.push_back(line.vertices.size());
+    for (const auto& vertex : line.vertices) {
+      surface.coordinates.insert(surface.coordinates.end(), vertex.begin(), vertex.end());
+    }
+  }
+  return {0, surface.lines.size(), surface.classes.data(), surface.line_vertices.data(),
+          surface.coordinates.data()};
 }
 
 microtin_profile hand_out(microtin_surface& surface, const Profile& profile) {
@@ -530,6 +550,14 @@ microtin_status microtin_surface_get_info(const microtin_surface* surface,
 
 microtin_status microtin_surface_mesh(microtin_surface* surface, microtin_triangles* triangles) {
   return hand_out(surface, triangles, [&] { return surface->surface.mesh(); });
+}
+
+microtin_status microtin_surface_lines(microtin_surface* surface, microtin_lines* lines) {
+  return guarded([&] {
+    expect(surface);
+    expect_struct(lines);
+    write_struct(hand_out(*surface, surface->surface.lines()), lines);
+  });
 }
 
 microtin_status microtin_surface_tile(microtin_surface* surface, uint32_t column, uint32_t row,

@@ -19,6 +19,8 @@
 #include "encoder/export/scene.hpp"
 #include "encoder/product/document.hpp"
 #include "encoder/stream/header.hpp"
+#include "encoder/terrain/exact_query.hpp"
+#include "encoder/terrain/line_class.hpp"
 #include "encoder/verify/everywhere.hpp"
 
 namespace microtin::encoder {
@@ -269,6 +271,23 @@ const SurfaceInfo& Surface::info() const {
 
 Mesh Surface::mesh() const {
   return mesh_of(content_->document.model(), 0, 0);
+}
+
+std::vector<Line> Surface::lines() const {
+  const product::DecodedStream* const stream = content_->document.stream();
+  if (stream == nullptr) return {};
+  const exact::Placement p = content_->document.metadata().placement;
+  std::vector<Line> lines;
+  for (const terrain::MarkedLine& marked : stream->terrain.lines()) {
+    Line line{std::string(name_of(marked.kind)), {}};
+    for (const uint32_t v : marked.vertices) {
+      const auto vertex = terrain::vertex_of(stream->terrain.mesh(), v);
+      line.vertices.push_back(
+          {coordinate(p.x, vertex.x), coordinate(p.y, vertex.y), coordinate(p.z, vertex.z)});
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
 }
 
 Mesh Surface::tile(uint32_t column, uint32_t row) const {

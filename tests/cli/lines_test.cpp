@@ -3,11 +3,15 @@
 // them.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "microtin/encoder.h"
+#include "microtin/surface.hpp"
 #include "tests/support/session.hpp"
 
 using namespace microtin::tests;
@@ -89,6 +93,39 @@ TEST_CASE("lines: decode writes them with their classes and heights, and encode 
   CHECK(counts("again.mtin") == counts("t.mtin"));
   expect_run(session, "decode t.mtin --lattice -o lattice.geojson");
   CHECK(nlohmann::json::parse(session.read("lattice.geojson"))["features"].size() == 3);
+}
+
+TEST_CASE("lines: C++ and C return those that decode writes") {
+  const Session session;
+  make_files(session);
+  expect_run(session, "decode t.mtin -o out.geojson");
+  const nlohmann::json out = nlohmann::json::parse(session.read("out.geojson"));
+  const std::string path = session.folder() + "/t.mtin";
+  const std::vector<encoder::Line> lines = encoder::Surface::from_file(path).lines();
+  microtin_surface* surface = nullptr;
+  REQUIRE(microtin_surface_from_file(path.c_str(), &surface) == MICROTIN_STATUS_OK);
+  microtin_lines in_c{};
+  in_c.size = sizeof in_c;
+  for (int twice = 0; twice < 2; ++twice) {
+    REQUIRE(microtin_surface_lines(surface, &in_c) == MICROTIN_STATUS_OK);
+  }
+  REQUIRE(lines.size() == out["features"].size());
+  REQUIRE(in_c.count == lines.size());
+  const double* at = in_c.coordinates;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const nlohmann::json& feature = out["features"][i];
+    CHECK(lines[i].line_class == feature["properties"]["class"].get<std::string>());
+    CHECK(lines[i].line_class == in_c.classes[i]);
+    CHECK(lines[i].vertices ==
+          feature["geometry"]["coordinates"].get<std::vector<std::array<double, 3>>>());
+    REQUIRE(in_c.vertices[i] == lines[i].vertices.size());
+    for (const std::array<double, 3>& vertex : lines[i].vertices) {
+      CHECK(std::equal(vertex.begin(), vertex.end(), at));
+      at += 3;
+    }
+  }
+  microtin_surface_free(surface);
+  CHECK(microtin_surface_lines(nullptr, &in_c) == MICROTIN_STATUS_REJECTED);
 }
 
 TEST_CASE("lines: decode refuses a file without lines, and a pack") {

@@ -365,9 +365,14 @@ TEST_CASE("C: what a surface hands out is that of C++, of streams and packs") {
     expect_same_heights(both);
     expect_same_profiles(both);
     expect_same_bounds(both);
+    microtin_lines lines{};
+    lines.size = sizeof lines;
+    REQUIRE(microtin_surface_lines(both.c, &lines) == MICROTIN_STATUS_OK);
+    CHECK(lines.count == 0);
   }
   CHECK(text_of(members_of(kC, "microtin_triangles")) ==
         "coordinates corners size triangles vertices ");
+  CHECK(text_of(members_of(kC, "microtin_lines")) == "classes coordinates count size vertices ");
   CHECK(text_of(members_of(kC, "microtin_grid")) == "columns rows size x y ");
   CHECK(text_of(members_of(kC, "microtin_profile")) ==
         "count earth_radius geodesic_deviation is_known_before length places result size ");
@@ -438,6 +443,8 @@ TEST_CASE("C: a struct whose size is not set is refused, whichever it is") {
     microtin_tile_margins margins{};
     microtin_profile profile{};
     microtin_sights sights{};
+    microtin_lines lines{};
+    lines.size = size;
     info.size = grid.size = triangles.size = margins.size = profile.size = sights.size = size;
     uint8_t* bytes = nullptr;
     uint64_t count = 0;
@@ -454,6 +461,7 @@ TEST_CASE("C: a struct whose size is not set is refused, whichever it is") {
           microtin_surface_mesh(surface, &triangles),
           microtin_surface_tile(surface, 0, 0, &triangles),
           microtin_surface_tile_margins(surface, 0, 0, &margins),
+          microtin_surface_lines(surface, &lines),
           microtin_surface_profile(surface, 0, 0, 1, 1, &profile),
           microtin_surface_lines_of_sight(surface, 0, nullptr, nullptr, &sights)}) {
       CHECK(status == MICROTIN_STATUS_REJECTED);

@@ -337,6 +337,24 @@ class Packs(unittest.TestCase):
         self.assertEqual(max(above for _, above in margins), tin.max_above_everywhere)
         self.assertGreater(len(set(margins)), 1)
 
+    def test_a_pack_has_no_lines(self):
+        self.assertEqual(microtin.decode(self.path).lines(), [])
+
+    def test_lines_of_a_stream(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "lines.csv")
+            with open(path, "w") as file:
+                file.write("x,y,class\n3,4,ridge\n70,50,ridge\n\n5,50,\n40,44,\n\n")
+            tin = microtin.decode(microtin.encode(hills(), 0.5, breaklines=path))
+        self.assertEqual(microtin.decode(microtin.encode(hills(), 0.5)).lines(), [])
+        lines = dict(tin.lines())
+        self.assertEqual(sorted(lines), ["other", "ridge"])
+        for kind, ends in (("ridge", {(3, 4), (70, 50)}), ("other", {(5, 50), (40, 44)})):
+            vertices = lines[kind]
+            self.assertEqual({tuple(vertices[0, :2]), tuple(vertices[-1, :2])}, ends)
+            numpy.testing.assert_allclose(tin.height_at(vertices[:, 0], vertices[:, 1]), vertices[:, 2])
+            self.assertTrue((vertices[:, None] == tin.vertices).all(axis=2).any(axis=1).all())
+
     def test_threads_share_a_terrain(self):
         tin = microtin.decode(self.path)
         expected, _ = tin.raster()

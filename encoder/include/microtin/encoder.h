@@ -284,6 +284,19 @@ typedef struct microtin_triangles {
 /* Writes the whole surface. Vertices on borders of tiles appear once. O(n). */
 microtin_status microtin_surface_mesh(microtin_surface* surface, microtin_triangles* triangles);
 
+/* The lines that the marks of a stream's edges make, such as ridges and rivers. They belong to the
+ * surface, and are valid until the next call that writes such a struct for it. */
+typedef struct microtin_lines {
+  size_t size;
+  uint64_t count;             /* of lines; 0: there are none, as in a pack */
+  const char* const* classes; /* the name of each line's class: "ridge", "water", ... */
+  const uint64_t* vertices;   /* how many vertices each line has */
+  const double* coordinates;  /* x, y, height of each vertex, line after line */
+} microtin_lines;
+
+/* Writes the lines, as `microtin decode -o lines.geojson` does. O(n). */
+microtin_status microtin_surface_lines(microtin_surface* surface, microtin_lines* lines);
+
 /* Writes a tile, columns counted from the west and rows from the south; a stream is tile 0, 0. A
  * tile without terrain has no vertices. */
 microtin_status microtin_surface_tile(microtin_surface* surface, uint32_t column, uint32_t row,

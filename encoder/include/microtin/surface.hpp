@@ -146,6 +146,12 @@ struct Mesh {
   std::vector<std::array<uint32_t, 3>> triangles;
 };
 
+/* A line among the edges of a stream, such as a ridge or a river. */
+struct Line {
+  std::string line_class; /* a name: "ridge", "water", ... of encoder/docs/accuracy.md */
+  std::vector<std::array<double, 3>> vertices; /* x, y, height; a closed line repeats the first */
+};
+
 /* A stream or a pack. Only one thread at a time may use a surface. */
 class Surface {
  public:
@@ -164,6 +170,10 @@ class Surface {
 
   /* Returns the whole surface. Vertices on borders of tiles appear once. O(n). */
   Mesh mesh() const;
+
+  /* Returns the lines that the marks of a stream's edges make, as `microtin decode -o
+   * lines.geojson` writes them. A pack has none. O(n). */
+  std::vector<Line> lines() const;
 
   /* Returns a tile of a pack, counted from the south-west corner; a stream is one tile. A tile
    * without terrain has no vertices. Throws std::out_of_range. */

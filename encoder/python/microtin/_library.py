@@ -212,6 +212,16 @@ class Triangles(_Sized):
     ]
 
 
+class Lines(_Sized):
+    _fields_ = [
+        ("size", c_size_t),
+        ("count", c_uint64),
+        ("classes", POINTER(c_char_p)),
+        ("vertices", POINTER(c_uint64)),
+        ("coordinates", POINTER(c_double)),
+    ]
+
+
 class Profile(_Sized):
     _fields_ = [
         ("size", c_size_t),
@@ -269,6 +279,7 @@ _FUNCTIONS = {
     "surface_from_bytes": [c_char_p, c_uint64, c_char_p, POINTER(c_void_p)],
     "surface_get_info": [c_void_p, POINTER(SurfaceInfo)],
     "surface_mesh": [c_void_p, POINTER(Triangles)],
+    "surface_lines": [c_void_p, POINTER(Lines)],
     "surface_tile": [c_void_p, c_uint32, c_uint32, POINTER(Triangles)],
     "surface_tile_margins": [c_void_p, c_uint32, c_uint32, POINTER(TileMargins)],
     "surface_heights": [c_void_p, c_uint64, Doubles, Doubles, Doubles],

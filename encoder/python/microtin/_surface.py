@@ -107,6 +107,22 @@ class Surface:
         """Numbers of the vertices of each triangle, counter-clockwise from above; void ones are left out."""
         return self._whole().triangles
 
+    def lines(self) -> List[Tuple[str, NDArray[numpy.float64]]]:
+        """The class of each line of a stream, such as "ridge", with x, y and height of its vertices. They are the lines that
+        `breaklines` of encode named; empty if there are none, as in a pack."""
+        found = _library.Lines()
+        lines = []
+        with self._lock:
+            library.microtin_surface_lines(self._surface, found)
+            begin = 0
+            for i in range(found.count):
+                vertices = numpy.empty((found.vertices[i], 3))
+                numbers = ctypes.cast(found.coordinates, ctypes.c_void_p).value + begin * vertices.itemsize
+                ctypes.memmove(vertices.ctypes.data, numbers, vertices.nbytes)
+                begin += vertices.size
+                lines.append((found.classes[i].decode(), vertices))
+        return lines
+
     def tile(self, column: int, row: int) -> Tile:
         """A tile of a pack, columns from the west, rows from the south; without vertices if it has no terrain. Raises
         IndexError."""
