@@ -22,6 +22,10 @@ constexpr std::size_t kRanks = 3;
 // and after them other vertices may go.
 constexpr int kNearTries = 2, kNearest = 1, kFarther = 2;
 
+// Where the area around a vertex is more than so many times the usual one, it is tried less often,
+// the less the larger that is: on a level sea all moves succeed, and look at many posts.
+constexpr int64_t kLarge = 4;
+
 // Posts that a vertex tries.
 constexpr std::size_t kTries = 24;
 
@@ -79,9 +83,10 @@ std::vector<Index> Attempts::ring(Index v) const {
   return ring;
 }
 
-// Moves vertices up and down until all around is within bounds, and says whether it is.
+// After a removal or an insertion: moves vertices up and down until all around is within bounds,
+// and says whether it is.
 bool Attempts::fit(const std::vector<Index>& vertices) {
-  if (!fit_.fit(vertices)) return false;
+  if (!fit_.fit(vertices, surface_.new_triangles())) return false;
   raised_ -= surface_.volume(fit_.changed());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (fit_.shift(i) == 0) continue;
@@ -117,6 +122,7 @@ bool Attempts::remove_vertex(Index v) {
 // Moves a vertex a little, or where the bound is missed without it. Says whether there is a vertex
 // less.
 bool Attempts::move_vertex(Index v) {
+  if (is_passed_over(v)) return false;
   const Vertex old = surface_.vertex(v);
   const std::optional<Hole> hole = remove(v);
   if (!hole) return false;
@@ -133,6 +139,13 @@ bool Attempts::move_vertex(Index v) {
   const std::vector<Index> neighbours = ring(moved_);
   return std::any_of(neighbours.begin(), neighbours.end(),
                      [this](Index r) { return !surface_.is_fixed(r) && remove_vertex(r); });
+}
+
+// The number is below 2^33, the area of the lattice, twice.
+bool Attempts::is_passed_over(Index v) {
+  const int64_t large = kLarge * usual_area_, area = surface_.area_around(v);
+  return area > large &&
+         random_.below(static_cast<std::size_t>(area)) >= static_cast<uint64_t>(large);
 }
 
 // Moves a vertex that was removed to a random post near its own. Says whether it can be there.
@@ -201,6 +214,7 @@ std::optional<Vertex> Attempts::carried(Vertex old, int x, int y) const {
 bool Attempts::place(Vertex vertex, const Hole& hole) {
   const Index near = hole.ring[0];
   if (!surface_.can_insert({vertex.x, vertex.y}, surface_.edge_of(near))) return false;
+  if (fit_.is_hopeless(vertex)) return false;
   raised_ = hole.raised - surface_.volume(surface_.new_triangles());  // those that are replaced
   moved_ = edits_.insert(vertex, near);
   raised_ += surface_.volume_around(moved_);

@@ -43,6 +43,9 @@ class Attempts {
   // How likely an odd coordinate is replaced by an even one, 0 .. 1.
   void set_cheapness(double cheapness) { cheapness_ = cheapness; }
 
+  // The mean area around a vertex, twice.
+  void set_usual_area(int64_t area) { usual_area_ = area; }
+
   // Heights that are free go up or down (1, -1; 0: to the source), and volume in this direction is
   // what attempts gain.
   void prefer(int32_t direction);
@@ -82,6 +85,7 @@ class Attempts {
     int64_t raised;           // what the surface's volume became larger by
   };
 
+  bool is_passed_over(Index v);
   bool move_near(Vertex old, int near, const Hole& hole);
   int64_t gain() const { return direction_ * raised_; }
   bool try_cheaper_posts(Vertex old, const Hole& hole);
@@ -104,6 +108,7 @@ class Attempts {
   int64_t raised_ = 0;         // by it: what the volume became larger by
   Index moved_ = 0;            // inserted last
   double cheapness_ = 0;
+  int64_t usual_area_ = 0;
   int32_t direction_ = 0;
   RandomNumbers random_{0};
 };

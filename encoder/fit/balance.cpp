@@ -138,11 +138,11 @@ void Balance::add_face(const Surface& surface, Index triangle, const std::vector
               c = surface.place(corner[2]);
   const auto area = static_cast<double>(orient2d(a, b, c));
   const PostIndex& posts = surface.posts();
-  posts.visit_runs(a, b, c, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
+  posts.visit_runs(a, b, c, [&](const PostIndex::Run& run) {
+    for (std::size_t i = run.first; i < run.last; ++i) {
       if (met[i]) continue;
       met[i] = true;
-      const Point p = posts.place(i);
+      const Point p = posts.place_in(run, i);
       const uint32_t sample = posts.number(i);
       const double of_b = static_cast<double>(orient2d(c, a, p)) / area;
       const double of_c = static_cast<double>(orient2d(a, b, p)) / area;

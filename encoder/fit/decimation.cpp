@@ -87,6 +87,7 @@ void Decimation::begin_pass() {
   }
   for (Worker& worker : workers_) {
     worker.attempts.set_cheapness(cheapness_);
+    worker.attempts.set_usual_area(3 * surface_.covered_area() / surface_.vertices());
     worker.attempts.prefer(preferred_);
   }
 }

@@ -47,6 +47,37 @@ Lanes with_sign_of(Lanes error, Lanes magnitude) {
                                  (reinterpret_cast<Bits>(error) & ~kMagnitude));
 }
 
+// The first `count` lanes, and 0 in the others.
+Lanes first_of(Lanes lanes, std::size_t count) {
+  if (count >= kLanes) return lanes;
+  constexpr Bits kNumber = {0, 1, 2, 3};
+  const Bits is_first = kNumber < static_cast<int32_t>(count);
+  return reinterpret_cast<Lanes>(reinterpret_cast<Bits>(lanes) & is_first);
+}
+
+// How a number on a plane grows along x and y.
+struct Along {
+  float x, y;
+};
+
+// The weights of a triangle's corners: 1 at their own, 0 at the others.
+struct Weights {
+  Weights(Vertex va, Vertex vb, Vertex vc) {
+    const float scale =
+        1.0F / static_cast<float>(orient2d({va.x, va.y}, {vb.x, vb.y}, {vc.x, vc.y}));
+    b = {static_cast<float>(vc.y - va.y) * scale, static_cast<float>(va.x - vc.x) * scale};
+    c = {static_cast<float>(va.y - vb.y) * scale, static_cast<float>(vb.x - va.x) * scale};
+    a = {-b.x - c.x, -b.y - c.y};
+  }
+
+  Along rise(Vertex va, Vertex vb, Vertex vc) const {
+    const auto of_b = static_cast<float>(vb.z - va.z), of_c = static_cast<float>(vc.z - va.z);
+    return {b.x * of_b + c.x * of_c, b.y * of_b + c.y * of_c};
+  }
+
+  Along a, b, c;
+};
+
 void forget(std::array<float, 2> (&shifted)[3]) {
   for (auto& both : shifted) both.fill(kUnknown);
 }
@@ -63,9 +94,14 @@ HeightFit::HeightFit(const Surface& surface)
   hopeless_ = kHopeless * radius * radius;
 }
 
-bool HeightFit::fit(const std::vector<Index>& vertices) {
+bool HeightFit::fit(const std::vector<Index>& vertices, const std::vector<Index>& new_ones) {
   begin(vertices);
-  bool fits = add_hopeful() && descend();
+  bool fits = add_hopeful(new_ones);
+  if (fits) {
+    find_triangles(vertices);
+    fits = add_hopeful(inner_) && descend();
+  }
+  inner_faces_ = faces_.size();
   if (fits && has_moved()) {
     go_back();
     for (const Index t : outer_) add_face(t);
@@ -79,16 +115,51 @@ bool HeightFit::fit(const std::vector<Index>& vertices) {
   return fits;
 }
 
-// Adds the inner triangles, and stops where posts are so far out that heights around will hardly
-// mend it. Says whether they are not.
-bool HeightFit::add_hopeful() {
-  float sum = 0;
-  for (const Index t : inner_) {
+// Adds triangles, and stops where posts are so far out that heights around will hardly mend it.
+// Says whether they are not.
+bool HeightFit::add_hopeful(const std::vector<Index>& triangles) {
+  for (const Index t : triangles) {
+    if (!surface_.is_covered(t)) continue;
+    met_[t] = call_;
     add_face(t);
-    sum += faces_.back().excess;
-    if (sum > hopeless_) return false;
+    first_excess_ += faces_.back().excess;
+    if (first_excess_ > hopeless_) return false;
   }
   return true;
+}
+
+bool HeightFit::is_hopeless(Vertex vertex) const {
+  float sum = 0;
+  surface_.visit_rim([&](Vertex a, Vertex b) {
+    sum += excess_under(vertex, a, b);
+    return sum <= hopeless_;
+  });
+  return sum > hopeless_;
+}
+
+// The sum of squared distances from the bounds, as far as it matters whether that is hopeless.
+float HeightFit::excess_under(Vertex va, Vertex vb, Vertex vc) const {
+  const Along rise = Weights(va, vb, vc).rise(va, vb, vc);
+  const PostIndex& posts = surface_.posts();
+  float sum = 0;
+  posts.visit_runs({va.x, va.y}, {vb.x, vb.y}, {vc.x, vc.y}, [&](const PostIndex::Run& run) {
+    if (sum > hopeless_) return;
+    const float* const rows = posts.rows_of(run);
+    const float* const middles = surface_.middles() + run.first;
+    const float* const radii = surface_.radii() + run.first;
+    const std::size_t size = run.last - run.first;
+    const auto x = static_cast<float>(run.place.x - va.x);
+    const float height = static_cast<float>(va.z) + rise.x * x;
+    Lanes squares{};
+    for (std::size_t i = 0; i < size; i += kLanes) {
+      const Lanes y = load(rows + i) - static_cast<float>(va.y);
+      const Lanes over = beyond(height + rise.y * y - load(middles + i), load(radii + i));
+      const Lanes within = first_of(over, size - i);
+      squares += within * within;
+    }
+    sum += sum_of(squares);
+  });
+  return sum;
 }
 
 bool HeightFit::has_moved() const {
@@ -99,7 +170,7 @@ bool HeightFit::has_moved() const {
 // Brings heights nearer to the source, or where they are preferred, one step each, where no excess
 // comes of it: those of vertices whose triangles have all been added.
 void HeightFit::settle() {
-  const bool all_added = faces_.size() == inner_.size() + outer_.size();
+  const bool all_added = faces_.size() == inner_faces_ + outer_.size();
   for (std::size_t m = 0; m < mover_count_; ++m) {
     if (!all_added && !movers_[m].is_inner) continue;
     const int32_t shift = preferred_ != 0 ? preferred_ : step_to_source(movers_[m]);
@@ -114,7 +185,7 @@ void HeightFit::settle() {
 
 // What has an unmoved corner and moves no other keeps its bounds as it did.
 void HeightFit::keep_changed() {
-  std::size_t kept = inner_.size();
+  std::size_t kept = inner_faces_;
   for (std::size_t f = kept; f < faces_.size(); ++f) {
     if (moves(faces_[f])) triangles_[kept++] = triangles_[f];
   }
@@ -166,6 +237,7 @@ bool HeightFit::descend() {
 void HeightFit::begin(const std::vector<Index>& vertices) {
   ++call_;
   posts_ = 0;
+  first_excess_ = 0;
   faces_.clear();
   triangles_.clear();
   mover_count_ = vertices.size();
@@ -176,7 +248,6 @@ void HeightFit::begin(const std::vector<Index>& vertices) {
     movers_[i].corners.clear();
     mover_[vertices[i]] = i;
   }
-  find_triangles(vertices);
 }
 
 void HeightFit::find_triangles(const std::vector<Index>& vertices) {
@@ -222,56 +293,40 @@ void HeightFit::add_face(Index triangle) {
 
 void HeightFit::add_posts(const std::array<Vertex, 3>& corner) {
   const Vertex &va = corner[0], &vb = corner[1], &vc = corner[2];
-  const Point a{va.x, va.y}, b{vb.x, vb.y}, c{vc.x, vc.y};
-  // The weights of b and c grow evenly along x and y.
-  const float scale = 1.0F / static_cast<float>(orient2d(a, b, c));
-  const float b_along_x = static_cast<float>(c.y - a.y) * scale;
-  const float b_along_y = static_cast<float>(a.x - c.x) * scale;
-  const float c_along_x = static_cast<float>(a.y - b.y) * scale;
-  const float c_along_y = static_cast<float>(b.x - a.x) * scale;
+  const Weights weights(va, vb, vc);
+  const Along rise = weights.rise(va, vb, vc);
   const PostIndex& posts = surface_.posts();
   const float* const middles = surface_.middles();
   const float* const radii = surface_.radii();
-  const std::size_t begin = posts_;
-  std::size_t end = begin;
-  posts.visit_runs(a, b, c, [&](std::size_t first, std::size_t last) {
+  std::size_t end = posts_;
+  posts.visit_runs({va.x, va.y}, {vb.x, vb.y}, {vc.x, vc.y}, [&](const PostIndex::Run& run) {
     const std::size_t to = end;
-    end += last - first;
-    if (end + kLanes > error_.size()) reserve(end);
-    float* const above = error_.data() + to;
-    float* const radius = radius_.data() + to;
-    float* const to_b = weight_[1].data() + to;
-    float* const to_c = weight_[2].data() + to;
-    const float* const rows = posts.rows_from(first);
-    const auto x = static_cast<float>(posts.place(first).x - a.x);
-    const float b_before = b_along_x * x, c_before = c_along_x * x;
-    for (std::size_t i = 0; i < last - first; i += kLanes) {
-      const Lanes y = load(rows + i) - static_cast<float>(a.y);
-      store(b_before + b_along_y * y, to_b + i);
-      store(c_before + c_along_y * y, to_c + i);
-      store(static_cast<float>(va.z) - load(middles + first + i), above + i);
-      store(load(radii + first + i), radius + i);
+    end += run.last - run.first;
+    reserve(end);
+    float *const above = error_.data() + to, *const radius = radius_.data() + to;
+    float *const to_a = weight_[0].data() + to, *const to_b = weight_[1].data() + to,
+                 *const to_c = weight_[2].data() + to;
+    const float* const rows = posts.rows_of(run);
+    const auto x = static_cast<float>(run.place.x - va.x);
+    const float of_a = 1 + weights.a.x * x, of_b = weights.b.x * x, of_c = weights.c.x * x;
+    const float height = static_cast<float>(va.z) + rise.x * x;
+    for (std::size_t i = 0; i < end - to; i += kLanes) {
+      const Lanes y = load(rows + i) - static_cast<float>(va.y);
+      store(of_a + weights.a.y * y, to_a + i);
+      store(of_b + weights.b.y * y, to_b + i);
+      store(of_c + weights.c.y * y, to_c + i);
+      store(height + rise.y * y - load(middles + run.first + i), above + i);
+      store(load(radii + run.first + i), radius + i);
     }
   });
+  // The last lanes are posts that nothing moves.
+  for (; end % kLanes != 0; ++end) {
+    error_[end] = radius_[end] = weight_[0][end] = weight_[1][end] = weight_[2][end] = 0;
+  }
   posts_ = end;
-  complete_posts(begin, static_cast<float>(vb.z - va.z), static_cast<float>(vc.z - va.z));
 }
 
-// Fills the last lanes with posts that nothing moves, and adds what b and c lie above a.
-void HeightFit::complete_posts(std::size_t begin, float b_rise, float c_rise) {
-  const std::size_t end = posts_;
-  for (; posts_ % kLanes != 0; ++posts_) {
-    reserve(posts_ + 1);
-    error_[posts_] = radius_[posts_] = weight_[1][posts_] = weight_[2][posts_] = 0;
-  }
-  for (std::size_t i = begin; i < posts_; i += kLanes) {
-    const Lanes to_b = load(weight_[1].data() + i), to_c = load(weight_[2].data() + i);
-    store(1.0F - to_b - to_c, weight_[0].data() + i);
-    store(load(error_.data() + i) + to_b * b_rise + to_c * c_rise, error_.data() + i);
-  }
-  for (std::size_t i = end; i < posts_; ++i) weight_[0][i] = 0;
-}
-
+// For so many posts, and lanes that begin before the last ends.
 void HeightFit::reserve(std::size_t posts) {
   if (posts + kLanes <= error_.size()) return;
   const std::size_t size = 2 * posts + kLanes;
@@ -385,9 +440,10 @@ uint32_t HeightFit::worst_sample(std::size_t rank) {
 std::size_t HeightFit::position_of(Index triangle, std::size_t post) const {
   const Index* const corner = surface_.mesh().origin + first_edge(triangle);
   std::size_t position = 0, before = 0;
-  const auto look = [&](std::size_t first, std::size_t last) {
-    if (before <= post && post < before + (last - first)) position = first + (post - before);
-    before += last - first;
+  const auto look = [&](const PostIndex::Run& run) {
+    const std::size_t after = before + (run.last - run.first);
+    if (before <= post && post < after) position = run.first + (post - before);
+    before = after;
   };
   surface_.posts().visit_runs(surface_.place(corner[0]), surface_.place(corner[1]),
                               surface_.place(corner[2]), look);

@@ -23,8 +23,13 @@ class HeightFit {
 
   // Looks for heights of these vertices, all else as it is. Says whether all posts around them are
   // within their bounds then. The surface stays as it is. Triangles between them may be out of
-  // bounds: what no heights mend there alone is given up soon. All others keep theirs.
-  bool fit(const std::vector<Index>& vertices);
+  // bounds: what no heights mend there alone is given up soon. All others keep theirs. `new_ones`
+  // are among those between them, or ghosts: where bounds are most likely to be missed.
+  bool fit(const std::vector<Index>& vertices, const std::vector<Index>& new_ones);
+
+  // Whether `fit` would give up at once after this vertex is inserted, where can_insert has just
+  // said that it can be: one look, without a change of the triangulation.
+  bool is_hopeless(Vertex vertex) const;
 
   // Heights that are free then to go one step nearer to the source go up or down instead (1, -1; 0:
   // no longer).
@@ -59,9 +64,10 @@ class HeightFit {
   };
 
   void begin(const std::vector<Index>& vertices);
+  bool add_hopeful(const std::vector<Index>& triangles);
   void find_triangles(const std::vector<Index>& vertices);
   void sort_in(Index triangle);
-  bool add_hopeful();
+  float excess_under(Vertex a, Vertex b, Vertex c) const;
   void assess(Face& face) const;
   bool descend();
   void settle();
@@ -72,7 +78,6 @@ class HeightFit {
   void add_face(Index triangle);
   void add_posts(const std::array<Vertex, 3>& corner);
   std::size_t position_of(Index triangle, std::size_t post) const;
-  void complete_posts(std::size_t begin, float b_rise, float c_rise);
   void reserve(std::size_t posts);
   float excess_of(const Face& face, uint32_t corner, int32_t shift) const;
   double excess() const;
@@ -85,11 +90,14 @@ class HeightFit {
   std::vector<uint32_t> mover_;  // by vertex of the surface
   std::vector<uint32_t> met_;    // by triangle of the surface: the last call that met it
   uint32_t call_ = 0;
-  float hopeless_ = 0;  // excess with which a call gives up
+  float hopeless_ = 0;      // excess with which a call gives up
+  float first_excess_ = 0;  // before heights change
+  std::size_t inner_faces_ = 0;
   int32_t stride_ = 1;
   int32_t preferred_ = 0;
 
-  std::vector<Index> inner_, outer_;  // triangles between vertices, and others around them
+  // Triangles between vertices but for the new ones, and others around them.
+  std::vector<Index> inner_, outer_;
   std::vector<Index> triangles_;
   std::vector<Face> faces_;  // of these
   std::vector<Mover> movers_;

@@ -31,14 +31,26 @@ class PostIndex {
   uint32_t number(std::size_t position) const {
     return numbers_.empty() ? static_cast<uint32_t>(position) : numbers_[position];
   }
-  // The y of places from a position on to the end of its run, and kReadAhead numbers more.
-  const float* rows_from(std::size_t position) const {
-    return rows_of_places_.data() + (is_full_ ? place_in_full(position).y - south_ : position);
+  // The positions first .. last - 1, whose posts have the same x, and the place of the first.
+  struct Run {
+    std::size_t first, last;
+    Point place;
+  };
+
+  // As `place`, of a position in a run, but quicker.
+  Point place_in(const Run& run, std::size_t position) const {
+    if (!is_full_) return places_[position];
+    return {run.place.x, static_cast<uint16_t>(run.place.y + (position - run.first))};
+  }
+
+  // The y of places in a run, and kReadAhead numbers more.
+  const float* rows_of(const Run& run) const {
+    return rows_of_places_.data() + (is_full_ ? run.place.y - south_ : run.first);
   }
   static constexpr std::size_t kReadAhead = 4;
 
-  // Calls visit(first, last) for all positions in first .. last - 1, so that together they are
-  // those of all posts in the closed counter-clockwise triangle. Each time all have the same x.
+  // Calls visit(run), so that together the runs have all posts in the closed counter-clockwise
+  // triangle.
   template <class Visit>
   void visit_runs(Point a, Point b, Point c, const Visit& visit) const {
     if (size_ == 0) return;
@@ -56,7 +68,7 @@ class PostIndex {
       const std::size_t low = column + row_of(span.low), high = column + row_of(span.high);
       const auto test = [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-          if (covers(a, b, c, places_[i])) visit(i, i + 1);
+          if (covers(a, b, c, places_[i])) visit(Run{i, i + 1, places_[i]});
         }
       };
       if (!has_crowds_) {
@@ -76,8 +88,8 @@ class PostIndex {
   // Calls visit(i, place) for every place i in the closed counter-clockwise triangle.
   template <class Visit>
   void visit_under(Point a, Point b, Point c, const Visit& visit) const {
-    visit_runs(a, b, c, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) visit(number(i), place(i));
+    visit_runs(a, b, c, [&](const Run& run) {
+      for (std::size_t i = run.first; i < run.last; ++i) visit(number(i), place_in(run, i));
     });
   }
 
@@ -88,6 +100,24 @@ class PostIndex {
   // A triangle seen from below and above.
   class Outline {
    public:
+    // The y of a side at x, or of its first end if it is vertical. What is not a whole number is
+    // 2^-16 away from one or more, and floating point less than 2^-30 from the truth; none is below
+    // 0.
+    class Line {
+     public:
+      Line() = default;
+      Line(Point p, Point q)
+          : from_(p), slope_(p.x == q.x ? 0 : (double{0} + q.y - p.y) / (q.x - p.x)) {}
+      int64_t floor_at(int64_t x) const { return static_cast<int64_t>(at(x) + kLittle); }
+      int64_t ceil_at(int64_t x) const { return static_cast<int64_t>(at(x) + (1 - kLittle)); }
+
+     private:
+      static constexpr double kLittle = 1.0 / (1 << 20);
+      double at(int64_t x) const { return from_.y + slope_ * static_cast<double>(x - from_.x); }
+      Point from_{0, 0};
+      double slope_ = 0;
+    };
+
     Outline(Point a, Point b, Point c) : corner_{a, b, c} {
       std::sort(corner_, corner_ + 3);
       bends_up_ = orient2d(corner_[0], corner_[2], corner_[1]) > 0;
@@ -98,6 +128,18 @@ class PostIndex {
 
     Point left() const { return corner_[0]; }
     Point right() const { return corner_[2]; }
+
+    // What lies between two sides, before or after the middle corner.
+    struct Part {
+      Line low, high;
+      int64_t left, right;
+    };
+    Part part(bool is_after) const {
+      const Line& bent = is_after ? after_ : before_;
+      const Line &low = bends_up_ ? long_ : bent, &high = bends_up_ ? bent : long_;
+      if (is_after) return {low, high, corner_[1].x, corner_[2].x};
+      return {low, high, corner_[0].x, int64_t{corner_[1].x} - 1};
+    }
 
     struct Span {
       int64_t low, high;
@@ -127,24 +169,6 @@ class PostIndex {
       span.high = std::max(span.high, other.high);
     }
 
-    // The y of a side at x, or of its first end if it is vertical. What is not a whole number is
-    // 2^-16 away from one or more, and floating point less than 2^-30 from the truth; none is below
-    // 0.
-    class Line {
-     public:
-      Line() = default;
-      Line(Point p, Point q)
-          : from_(p), slope_(p.x == q.x ? 0 : (double{0} + q.y - p.y) / (q.x - p.x)) {}
-      int64_t floor_at(int64_t x) const { return static_cast<int64_t>(at(x) + kLittle); }
-      int64_t ceil_at(int64_t x) const { return static_cast<int64_t>(at(x) + (1 - kLittle)); }
-
-     private:
-      static constexpr double kLittle = 1.0 / (1 << 20);
-      double at(int64_t x) const { return from_.y + slope_ * static_cast<double>(x - from_.x); }
-      Point from_{0, 0};
-      double slope_ = 0;
-    };
-
     Point corner_[3];
     bool bends_up_;
     Line long_, before_, after_;
@@ -153,14 +177,22 @@ class PostIndex {
   // Visits the posts where a cell is a place: no post has to be tested.
   template <class Visit>
   void visit_columns(const Outline& outline, const Visit& visit) const {
-    const uint32_t last = std::min<uint32_t>(outline.right().x, east_);
-    for (uint32_t x = std::max<uint32_t>(outline.left().x, west_); x <= last; ++x) {
-      const Outline::Span span = within_rows(outline.at(x));
-      if (span.low > span.high) continue;
-      const std::size_t column = std::size_t{x - west_} * rows_;
-      const std::size_t begin = first_in(column + row_of(span.low));
-      const std::size_t end = first_in(column + row_of(span.high) + 1);
-      if (begin != end) visit(begin, end);
+    const auto rows = static_cast<int64_t>(rows_);
+    for (const bool is_after : {false, true}) {
+      const Outline::Part part = outline.part(is_after);
+      const int64_t last = std::min<int64_t>(part.right, east_);
+      for (int64_t x = std::max<int64_t>(part.left, west_); x <= last; ++x) {
+        const int64_t low = std::max<int64_t>(part.low.ceil_at(x), south_);
+        const int64_t high = std::min<int64_t>(part.high.floor_at(x), north_);
+        if (low > high) continue;
+        const auto begin = static_cast<std::size_t>((x - west_) * rows + low - south_);
+        const std::size_t end = begin + static_cast<std::size_t>(high - low) + 1;
+        if (is_full_) {
+          visit(Run{begin, end, {static_cast<uint16_t>(x), static_cast<uint16_t>(low)}});
+        } else if (first_[begin] != first_[end]) {
+          visit(Run{first_[begin], first_[end], places_[first_[begin]]});
+        }
+      }
     }
   }
 
@@ -178,8 +210,8 @@ class PostIndex {
       const auto begin = std::lower_bound(from, to, at(span.low));
       const auto end = std::upper_bound(begin, to, at(span.high));
       if (begin != end) {
-        visit(static_cast<std::size_t>(begin - places_.begin()),
-              static_cast<std::size_t>(end - places_.begin()));
+        visit(Run{static_cast<std::size_t>(begin - places_.begin()),
+                  static_cast<std::size_t>(end - places_.begin()), *begin});
       }
     }
   }
@@ -194,8 +226,6 @@ class PostIndex {
   std::size_t cell_of(Point p) const {
     return std::size_t{(p.x - west_) / cell_} * rows_ + row_of(p.y);
   }
-  // The first position in a cell whose side is 1.
-  std::size_t first_in(std::size_t cell) const { return is_full_ ? cell : first_[cell]; }
 
   // A position, below 2^32, divided by at most 2^16 rows. The reciprocal is too large by at most 1,
   // so the product is too large by less than 2^-16: fractions are at least that far below 1.

@@ -144,9 +144,9 @@ Refinement::Candidate Refinement::worst_within(Index triangle) const {
   Candidate worst = {0, 0};
   constexpr double kRounding = 2;
   double least = -kRounding;  // violation that matters
-  posts_.visit_runs({a.x, a.y}, {b.x, b.y}, {c.x, c.y}, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const Point place = posts_.place(i);
+  posts_.visit_runs({a.x, a.y}, {b.x, b.y}, {c.x, c.y}, [&](const PostIndex::Run& run) {
+    for (std::size_t i = run.first; i < run.last; ++i) {
+      const Point place = posts_.place_in(run, i);
       const uint32_t s = posts_.number(i);
       const auto [lowest, highest] = model_.allowed(survey_.samples[s]);
       const double height = plane.at(place) * 65536;

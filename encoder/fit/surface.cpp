@@ -80,9 +80,9 @@ bool Surface::keeps_bounds(Index triangle) const {
   const float *const middle = middles(), *const radius = radii();
   bool keeps = true;
   posts_.visit_runs(place(corner[0]), place(corner[1]), place(corner[2]),
-                    [&](std::size_t first, std::size_t last) {
-                      for (std::size_t i = first; i < last && keeps; ++i) {
-                        const Point p = posts_.place(i);
+                    [&](const PostIndex::Run& run) {
+                      for (std::size_t i = run.first; i < run.last && keeps; ++i) {
+                        const Point p = posts_.place_in(run, i);
                         const double error = std::abs(plane.at(p) - double{middle[i]});
                         if (error < static_cast<double>(radius[i]) - kLimitError) continue;
                         const int32_t surface = height_in_triangle(a, b, c, fine(p));
@@ -114,9 +114,9 @@ Surface::Interval Surface::allowed_heights(Index v) const {
     // What v adds, and the others: planes, which are 1 and 0 at v.
     const Plane own({pa.x, pa.y, 1}, {pb.x, pb.y, 0}, {pc.x, pc.y, 0});
     const Plane rest({pa.x, pa.y, 0}, b, c);
-    posts_.visit_runs(pa, pb, pc, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        const Point p = posts_.place(i);
+    posts_.visit_runs(pa, pb, pc, [&](const PostIndex::Run& run) {
+      for (std::size_t i = run.first; i < run.last; ++i) {
+        const Point p = posts_.place_in(run, i);
         const double weight = own.at(p);
         if (weight < kNoWeight) continue;
         const double others = rest.at(p), middle = double{middles()[i]}, inverse = 1 / weight;
@@ -166,10 +166,15 @@ bool Surface::can_insert(Point p, Index hint) {
 
 // Below 2^33 (area, of which all together have no more) times 2^17.
 int64_t Surface::volume(Index triangle) const {
-  if (!is_covered(triangle)) return 0;
   const Index* const corner = mesh().origin + first_edge(triangle);
   const int64_t heights = int64_t{heights_[corner[0]]} + heights_[corner[1]] + heights_[corner[2]];
-  return orient2d(place(corner[0]), place(corner[1]), place(corner[2])) * heights;
+  return area(triangle) * heights;
+}
+
+int64_t Surface::area(Index triangle) const {
+  if (!is_covered(triangle)) return 0;
+  const Index* const corner = mesh().origin + first_edge(triangle);
+  return orient2d(place(corner[0]), place(corner[1]), place(corner[2]));
 }
 
 int64_t Surface::volume(const std::vector<Index>& triangles) const {
@@ -186,10 +191,13 @@ int64_t Surface::volume_around(Index v) const {
 
 int64_t Surface::covered_area() const {
   int64_t sum = 0;
-  visit_covered([&](Index t) {
-    const Index* const corner = mesh().origin + first_edge(t);
-    sum += orient2d(place(corner[0]), place(corner[1]), place(corner[2]));
-  });
+  visit_covered([&](Index t) { sum += area(t); });
+  return sum;
+}
+
+int64_t Surface::area_around(Index v) const {
+  int64_t sum = 0;
+  visit_around(v, [&](Index h) { sum += area(triangle_of(h)); });
   return sum;
 }
 

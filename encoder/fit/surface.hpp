@@ -88,6 +88,19 @@ class Surface {
   // taken back by remove.
   bool can_insert(Point p, Index hint);
 
+  // After can_insert: calls visit(a, b) for the sides of the covered triangles that the insertion
+  // would make at p, which lies to the left of each, until it says false.
+  template <class Visit>
+  void visit_rim(const Visit& visit) const {
+    const Index size = triangulation_.rim_size();
+    Index a = triangulation_.rim(size - 1);
+    for (Index i = 0; i < size; ++i) {
+      const Index b = triangulation_.rim(i);
+      if (a != kInfinity && b != kInfinity && !visit(vertex(a), vertex(b))) return;
+      a = b;
+    }
+  }
+
   // Calls visit(half-edge) for every half-edge that starts at v.
   template <class Visit>
   void visit_around(Index v, const Visit& visit) const {
@@ -117,11 +130,13 @@ class Surface {
   int64_t volume(const std::vector<Index>& triangles) const;
   int64_t volume_around(Index v) const;
   int64_t covered_area() const;
+  int64_t area_around(Index v) const;
 
   Tin tin() const;
 
  private:
   int64_t volume(Index triangle) const;
+  int64_t area(Index triangle) const;
   void find_voids();
   void find_corners();
   void find_fixed_samples();

@@ -82,6 +82,11 @@ class Triangulation {
   // The triangles in conflict with p, which an insertion would replace.
   const std::vector<Index>& conflicts(Point p, Index hint);
 
+  // After `conflicts`: the vertices around those triangles, counter-clockwise, infinity among them.
+  // An insertion joins p to all of them.
+  Index rim_size() const { return cavity_.size + 2; }
+  Index rim(Index i) const { return cavity_.edge_origin[i]; }
+
   // The triangles that the last insert or remove made. Those of an insert turn counter-clockwise
   // around the new vertex, which is the last corner of each, and take the slots of those that it
   // replaced, then two more.
