@@ -64,14 +64,16 @@ void remove_and_move(Decimation& decimation, uint32_t rounds, const Progress& pr
   }
 }
 
-// What means near zero may cost, and how often that is tried, by heights and by moves.
+// What means near zero may cost, and how often that is tried, by heights and by moves. Plains of a
+// few vertices may take some bytes more.
 constexpr double kBalanceCost = 0.005, kCentringCost = 0.08;
+constexpr std::size_t kCentringBytes = 16;
 constexpr int kBalancePasses = 8;
-constexpr uint32_t kCentringRounds = 8;
+constexpr uint32_t kCentringRounds = 12;
 
 // The part of the vertices that may be added in the second of these rounds; in the third twice as
 // many, and so on.
-constexpr uint32_t kAddedPart = 130;
+constexpr uint32_t kAddedPart = 130, kFewestAdded = 2;
 
 // What a mean that is off by a radius is worth, in bits a vertex: at first, and after moves.
 constexpr double kMeanWeight = 4, kCentringWeight = 128;
@@ -124,7 +126,7 @@ void centre(Surface& surface, Team& team, Decimation& decimation, std::size_t mo
     const Progress part = options.progress.part(static_cast<double>(i) / kCentringRounds,
                                                 static_cast<double>(i + 1) / kCentringRounds);
     decimation.aim(mean);
-    if (i > 0) decimation.add_vertices(std::max(i * surface.vertices() / kAddedPart, 1u));
+    if (i > 0) decimation.add_vertices(std::max(i * surface.vertices() / kAddedPart, kFewestAdded));
     decimation.centre(static_cast<int>(std::min(kNear * (i + 1), kFar)), part);
     HeightChoice heights(surface, team, usual_degree(options.effort), kCentringWeight);
     Fitted next = with_cheap_heights(surface, heights, kCentringPasses, options);
@@ -148,7 +150,7 @@ Tin finished(Surface& surface, Team& team, Decimation& decimation, const Tin& be
     const double bytes = static_cast<double>(found.bytes) * (1 + cost);
     return std::min(allowed, static_cast<std::size_t>(bytes));
   };
-  const std::size_t most = with_cost(kCentringCost);
+  const std::size_t most = std::min(allowed, with_cost(kCentringCost) + kCentringBytes);
   balance(surface, heights, with_cost(kBalanceCost), found, options);
   if (options.centred) centre(surface, team, decimation, most, found, options);
   return std::move(found.tin);
@@ -193,7 +195,7 @@ uint32_t rounds_of(Search search) {
     case Search::kBest:
       return 130;
     case Search::kNormal:
-      return 20;
+      return 24;
     case Search::kFast:
       return 2;
     default:  // without any, steps of height that are too large would look better than they are
@@ -240,21 +242,28 @@ Tin mended(const Survey& survey, const Tin& tin) {
 
 namespace {
 
-// The z steps to be tried, in tenths of the bound: smaller ones cost more in heights than they save
-// in vertices, of which larger ones take more.
-std::vector<int> tenths_to_try(const SimplifyOptions& options, bool has_own_bounds) {
-  if (options.few_vertices) return {4};
+// The z steps to be tried, in hundredths of the bound: smaller ones cost more in heights than they
+// save in vertices, of which larger ones take more.
+std::vector<int> steps_to_try(const SimplifyOptions& options, bool has_own_bounds) {
+  if (options.few_vertices) return {kFineStep};
   switch (options.search) {
     case Search::kBest:
-      return {10, 8, 6, 5, 4, 3};
-    case Search::kNormal:  // of the least bound: others are wider
-      return has_own_bounds ? std::vector<int>{10, 8, 4} : std::vector<int>{8, 4};
+      return {30, 40, 50, 60, 75, 100};
+    case Search::kNormal:  // own bounds are wider than the least one, of which these are parts
+      return has_own_bounds ? std::vector<int>{38, 75, 100} : std::vector<int>{38, 75};
     default:
-      return {4};
+      return {75};
   }
 }
 
-constexpr int kOwnSteps = 4;
+// Where the bound is so few own steps, most posts of a rough terrain are vertices, and heights take
+// most bits: then a step is tried that is coarser, if the coarsest of all others is the best.
+constexpr int kFewSteps = 6, kCoarseStep = 140;
+
+// Heights beside those that are given, or between posts, must find a step that suits all of them.
+bool needs_fine_steps(const LatticeOptions& lattice) {
+  return lattice.bound_at == BoundScope::kEverywhere || !lattice.breaklines.empty();
+}
 
 // A source, laid out with each of the steps of its heights that fit it.
 class Layouts {
@@ -269,6 +278,8 @@ class Layouts {
   }
 
   std::size_t size() const { return steps_.size(); }
+  // Those that are tried in any case.
+  std::size_t usual() const { return usual_; }
   std::size_t samples() const { return samples_; }
   Laid operator[](std::size_t i) const { return laid_out_with(steps_[i]); }
   // If there is but one.
@@ -276,7 +287,7 @@ class Layouts {
 
  private:
   void find_steps(const SimplifyOptions& options);
-  void try_step(Decimal step);
+  void add_step(const std::optional<Decimal>& step);
   Laid laid_out_with(const std::optional<Decimal>& step) const {
     LatticeOptions lattice = lattice_;
     lattice.z_step = step;
@@ -286,36 +297,43 @@ class Layouts {
   const Source& source_;
   LatticeOptions lattice_;
   std::vector<std::optional<Decimal>> steps_;  // nothing: the source's own
-  std::size_t samples_ = 0;                    // if there is a choice of steps
-  std::optional<Laid> only_;                   // laid out with the only step, if it is at hand
+  std::size_t usual_ = 1;
+  std::size_t samples_ = 0;   // if there is a choice of steps
+  std::optional<Laid> only_;  // laid out with the only step, if it is at hand
 };
 
 void Layouts::find_steps(const SimplifyOptions& options) {
   // A one-sided bound leaves half the room.
   const Decimal least = least_bound(bounds_of(source_), *lattice_.max_error);
   const Decimal bound = lattice_.never_below ? half(least) : least;
-  const std::vector<int> all_tenths = tenths_to_try(options, !bounds_of(source_).empty());
-  // The source's own step is good if it is not much smaller than the bound.
   only_ = laid_out_with(std::nullopt);
   const Decimal own = only_->z_step;
   samples_ = only_->survey.samples.size();
-  const bool is_own_good = bound <= make_decimal(Wide{own.mantissa} * kOwnSteps, own.decimals);
-  if (!is_own_good || all_tenths.size() != 1) {
-    for (const int tenths : all_tenths) {
-      if (bound.decimals < kMaxDecimals)
-        try_step(make_decimal(Wide{bound.mantissa} * tenths, bound.decimals + 1));
-    }
+  const auto add = [&](int hundredths) {
+    const Decimal step = step_near(own, bound, hundredths);
+    add_step(step == own ? std::nullopt : std::optional<Decimal>(step));
+  };
+  if (needs_fine_steps(lattice_)) {
+    add(kFineStep);
+  } else {
+    for (const int hundredths : steps_to_try(options, !bounds_of(source_).empty())) add(hundredths);
   }
-  if (is_own_good || steps_.empty()) steps_.push_back(std::nullopt);
+  if (steps_.empty()) steps_.push_back(std::nullopt);
+  usual_ = steps_.size();
+  if (usual_ > 1 && bound <= make_decimal(Wide{own.mantissa} * kFewSteps, own.decimals)) {
+    add(kCoarseStep);
+  }
   if (steps_.size() > 1) only_.reset();
 }
 
-void Layouts::try_step(Decimal step) {
+// Unless it is there, or does not fit.
+void Layouts::add_step(const std::optional<Decimal>& step) {
+  if (std::find(steps_.begin(), steps_.end(), step) != steps_.end()) return;
   only_.reset();  // two would take too much memory
   try {
     only_ = laid_out_with(step);
-    steps_.emplace_back(step);
-  } catch (const Error&) {  // too many steps, or none where points share a place
+    steps_.push_back(step);
+  } catch (const Error&) {  // some heights, or points that share a place, have none within bounds
   }
 }
 
@@ -328,21 +346,27 @@ Approximation cheapest(const Layouts& all, const SimplifyOptions& options) {
     Tin tin;
     std::size_t bytes;
   };
-  std::vector<Trial> trials(all.size());
-  Team team(all.samples() <= kSamplesAtOnce ? std::min(options.threads, all.size()) : 1);
+  std::vector<Trial> trials(all.size(), Trial{{}, SIZE_MAX});
   SharedProgress progress(options.progress, all.size());
-  team.for_each(all.size(), [&](std::size_t i, std::size_t) {
+  const auto attempt = [&](std::size_t i, std::size_t threads) {
     SimplifyOptions trial = options;
     trial.search = Search::kTrial;
-    trial.threads = options.threads / team.size();
+    trial.threads = threads;
     trial.progress = progress.of(i);
     trials[i].tin = simplify(all[i].survey, trial);
     trials[i].bytes = bytes_of(trials[i].tin, options);
-  });
-  const auto best =
-      std::min_element(trials.begin(), trials.end(),
-                       [](const Trial& a, const Trial& b) { return a.bytes < b.bytes; });
-  return {all[static_cast<std::size_t>(best - trials.begin())], std::move(best->tin)};
+  };
+  const auto best = [&] {
+    const auto found =
+        std::min_element(trials.begin(), trials.end(),
+                         [](const Trial& a, const Trial& b) { return a.bytes < b.bytes; });
+    return static_cast<std::size_t>(found - trials.begin());
+  };
+  Team team(all.samples() <= kSamplesAtOnce ? std::min(options.threads, all.usual()) : 1);
+  team.for_each(all.usual(),
+                [&](std::size_t i, std::size_t) { attempt(i, options.threads / team.size()); });
+  if (best() + 1 == all.usual() && all.usual() < all.size()) attempt(all.usual(), options.threads);
+  return {all[best()], std::move(trials[best()].tin)};
 }
 
 // The part of the time that looking for the step takes.
@@ -351,6 +375,17 @@ double trial_part(Search search) {
 }
 
 }  // namespace
+
+constexpr long kLargestPower = 3;  // of two: above that it makes no difference
+
+Decimal step_near(Decimal own, Decimal bound, int hundredths) {
+  constexpr double kMost = 1e15;  // heights have fewer steps
+  const double steps = std::min(0.01 * hundredths * (real(bound) / real(own) + 1), kMost);
+  const long power = std::lround(std::log2(steps));
+  const int64_t multiple =
+      power <= kLargestPower ? int64_t{1} << std::max(power, 0L) : 2 * std::llround(steps / 2);
+  return make_decimal(Wide{multiple} * own.mantissa, own.decimals);
+}
 
 Approximation approximate(const Source& source, const LatticeOptions& lattice,
                           const SimplifyOptions& options) {

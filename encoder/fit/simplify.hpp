@@ -62,9 +62,18 @@ struct Approximation {
   Tin tin;
 };
 
+// The multiple of a source's own step near so many hundredths of the bound and one own step: a
+// power of two, if it is small, else even. A surface then is a multiple of the own step at more
+// posts, in the middle of an edge above all, and a multiple may be as far off as the bound, where
+// other numbers have to be nearer.
+Decimal step_near(Decimal own, Decimal bound, int hundredths);
+
+// A part that leaves room for what holds heights otherwise, too: lines, and bounds between posts.
+constexpr int kFineStep = 40;
+
 // Lays the source out and simplifies it. If there is a bound but no z step, the step is the one of
-// a few parts of the bound, or of the source's own step, that makes a quick search's stream
-// smallest. Throws Error as lay_out and simplify do.
+// a few near parts of the bound that makes a quick search's stream smallest. Throws Error as
+// lay_out and simplify do.
 Approximation approximate(const Source& source, const LatticeOptions& lattice,
                           const SimplifyOptions& options);
 

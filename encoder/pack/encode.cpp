@@ -23,40 +23,43 @@ namespace {
 // Parts of the time, estimated: reading the raster first, and choosing the step of heights.
 constexpr double kScanPart = 0.02, kStepPart = 0.05;
 
-// Steps that suit borders, too, in hundredths of the bound: of coarser ones, which may suit a
-// stream, their chains have too few heights to choose from.
-std::vector<int> steps_to_try(bool never_below) {
-  return never_below ? std::vector<int>{25, 30} : std::vector<int>{50, 60};
-}
+// Steps that suit borders, too, in hundredths of the bound, or of half of one that is one-sided: of
+// coarser ones, which may suit a stream, their chains have too few heights to choose from.
+constexpr int kStepsToTry[] = {50, 60};
 
 // The z step that suits a part of the raster best: that of its stream, or one of ours. Tiles with
 // posts of the least bound anywhere must be able to keep it.
-Decimal choose_z_step(const Raster& part, Decimal least, const LatticeOptions& lattice,
-                      SimplifyOptions options) {
+Decimal choose_z_step(const Raster& part, Decimal least, bool has_lines,
+                      const LatticeOptions& lattice, SimplifyOptions options) {
   if (options.search == Search::kNormal) options.search = Search::kFast;
-  const std::vector<int> steps = steps_to_try(lattice.never_below);
   const Progress progress = options.progress;
   double done = 0;
   const auto next_part = [&] {
     const double before = done;
-    done += 1.0 / static_cast<double>(steps.size() + 1);
+    done += 1.0 / (std::size(kStepsToTry) + 1);
     return progress.part(before, done);
   };
   options.progress = next_part();
   const auto bytes_of = [&](const Tin& tin) { return encode(tin, {}, options.effort).size(); };
-  const Approximation stream = approximate(part, lattice, options);
+  const Decimal own = lay_out(part, lattice).z_step;
+  const auto with_step = [&](int hundredths) {
+    LatticeOptions with = lattice;
+    with.z_step = step_near(own, lattice.never_below ? half(least) : least, hundredths);
+    return with;
+  };
+  const Approximation stream =
+      approximate(part, has_lines ? with_step(kFineStep) : lattice, options);
   const bool is_fine_enough = part.bounds.empty() || stream.laid.z_step <= least;
   Decimal best = stream.laid.z_step;
   std::size_t fewest = is_fine_enough ? bytes_of(stream.tin) : SIZE_MAX;
-  for (const int hundredths : steps) {
-    if (least.decimals + 2 > kMaxDecimals) break;
-    LatticeOptions with_step = lattice;
-    with_step.z_step = make_decimal(Wide{least.mantissa} * hundredths, least.decimals + 2);
+  for (const int hundredths : kStepsToTry) {
+    const LatticeOptions with = with_step(hundredths);
     options.progress = next_part();
-    const std::size_t bytes = bytes_of(approximate(part, with_step, options).tin);
+    if (*with.z_step == best) continue;
+    const std::size_t bytes = bytes_of(approximate(part, with, options).tin);
     if (bytes >= fewest) continue;
     fewest = bytes;
-    best = *with_step.z_step;
+    best = *with.z_step;
   }
   return best;
 }
@@ -72,8 +75,8 @@ TiledRaster tiled_raster(const RasterReader& raster, const RasterScan& scanned,
     try {
       SimplifyOptions simplify = options.simplify;
       simplify.progress = progress;
-      lattice.z_step =
-          choose_z_step(raster.read(scanned.roughest), *scanned.least_bound, lattice, simplify);
+      lattice.z_step = choose_z_step(raster.read(scanned.roughest), *scanned.least_bound,
+                                     !options.lattice.breaklines.empty(), lattice, simplify);
       kept.z_step = lattice.z_step;
       return {raster, choose_post_lattice(frame, scanned.heights, lattice), kept, {}};
     } catch (const Error&) {  // too little terrain there, or too fine for the whole

@@ -111,12 +111,43 @@ TEST_CASE("approximation: a longer search takes fewer bytes") {
   CHECK(find(raster, within("10"), Search::kBest).bytes <= normal);
 }
 
-TEST_CASE("approximation: steps that do not fit 16 bits are left out") {
-  Raster raster = mountains(20);
-  for (int64_t& z : raster.heights) z *= 40;
-  raster.heights[0] = 0;
-  raster.heights[1] = 65535;
-  CHECK(to_string(find(raster, within("1")).z_step) == "1");
+TEST_CASE("approximation: steps that miss the bound at some height are left out") {
+  CHECK(to_string(find(mountains(20), within("0.5"), Search::kNormal).z_step) == "1");
+}
+
+TEST_CASE("approximation: steps are own ones times a power of two, or an even number of them") {
+  const auto near = [](const char* own, const char* bound, int hundredths) {
+    return to_string(step_near(*parse_decimal(own), *parse_decimal(bound), hundredths));
+  };
+  CHECK(near("1", "0", 75) == "1");
+  CHECK(near("1", "1", 75) == "2");
+  CHECK(near("1", "2", 75) == "2");
+  CHECK(near("1", "3", 75) == "4");
+  CHECK(near("1", "10", 75) == "8");
+  CHECK(near("1", "20", 75) == "16");
+  CHECK(near("1", "21.5", 75) == "16");
+  CHECK(near("0.01", "0.3", 75) == "0.24");
+  CHECK(near("0.25", "1", 140) == "2");
+  CHECK(near("5", "1", 75) == "5");
+  CHECK(near("0.000000001", "100000000000000000", 75) == "1000000");  // as many as heights have
+}
+
+// Most posts are vertices then, and others lie in the middle of edges, where an even step leaves
+// whole heights.
+TEST_CASE("approximation: within few own steps of a rough terrain, the step is a coarse even one") {
+  Raster raster = mountains(65);
+  Random random(5);
+  for (int64_t& z : raster.heights) z += random.below(12);
+  for (const std::string bound : {"1", "2", "3"}) {
+    CAPTURE(bound);
+    LatticeOptions other = within(bound.c_str());
+    other.z_step = parse_decimal(bound == "3" ? "3" : "1");
+    const Found chosen = find(raster, within(bound.c_str()));
+    CHECK(to_string(chosen.z_step) == (bound == "3" ? "4" : "2"));
+    CHECK(static_cast<double>(chosen.bytes) <
+          0.97 * static_cast<double>(find(raster, other).bytes));
+  }
+  CHECK(to_string(find(raster, within("2"), Search::kNormal).z_step) == "4");
 }
 
 TEST_CASE("approximation: never below, at most so far above, at a price") {
