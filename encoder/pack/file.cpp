@@ -311,7 +311,7 @@ std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
   return with_file_context("tile " + std::to_string(number), [&] {
     const Bytes stream = stream_of(entry);
     expect_done(start_of(number, stream));
-    DecodedTerrain decoded(stream);
+    DecodedTerrain decoded(stream, {}, stream::MarkChunks::kSkip);
     check_box(decoded.mesh(), tile_box(header_.grid, number));
     return std::optional<DecodedTerrain>(std::move(decoded));
   });

@@ -84,7 +84,8 @@ void append_chunk(const BoundSpan& bounds, std::vector<uint8_t>& stream) {
   append_check(stream, begin);
 }
 
-DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream, const SectionVisitor& visit) {
+DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream, const SectionVisitor& visit,
+                               MarkChunks marks) {
   const Header header = read_header(stream);
   expect_room_for_vertices(header.info, stream.size());
   StartedDecoder started(header.info);
@@ -104,11 +105,13 @@ DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream, const Section
   }
   expect_done(microtin_decoder_finish(decoder));
   const uint8_t *const behind = stream.data() + at, *const end = stream.data() + stream.size();
-  expect_chunks(behind, end, [this](uint64_t type, const uint8_t* from, const uint8_t* to) {
+  const bool has_marks = marks == MarkChunks::kRead;
+  expect_chunks(behind, end, [&](uint64_t type, const uint8_t* from, const uint8_t* to) {
     if (type == MICROTIN_NOTE_BOUNDS && !bounds_) bounds_ = read_span(from, to);
-    if (type == kMarkChunk && mark_bytes_ == 0) mark_bytes_ = bytes_of_chunk(type, from, to);
+    if (has_marks && type == kMarkChunk && mark_bytes_ == 0)
+      mark_bytes_ = bytes_of_chunk(type, from, to);
   });
-  marks_ = EdgeMarks(mesh_, behind, end);
+  if (has_marks) marks_ = EdgeMarks(mesh_, behind, end);
   phases_ = microtin_decoder_phase(decoder);
 }
 

@@ -35,14 +35,19 @@ void expect_chunks(const uint8_t* at, const uint8_t* end, const ChunkVisitor& vi
 // Appends a chunk with the bounds that a tile's posts have of their own.
 void append_chunk(const BoundSpan& bounds, std::vector<uint8_t>& stream);
 
+// What becomes of marks of edges. Tiles of packs have none: their readers skip such a chunk, as
+// devices do.
+enum class MarkChunks : uint8_t { kRead, kSkip };
+
 class DecodedTerrain {
  public:
   // Called with the mesh at the end of a section, and the bytes of all sections so far.
   using SectionVisitor = std::function<void(const microtin_mesh* mesh, uint64_t bytes)>;
 
   // Decodes a whole stream. Throws Error, saying what the decoder found, if it is not valid, if
-  // what follows its last section is not chunks, or if the marks of its edges are malformed.
-  explicit DecodedTerrain(const std::vector<uint8_t>& stream, const SectionVisitor& visit = {});
+  // what follows its last section is not chunks, or if marks that are read are malformed.
+  explicit DecodedTerrain(const std::vector<uint8_t>& stream, const SectionVisitor& visit = {},
+                          MarkChunks marks = MarkChunks::kRead);
 
   DecodedTerrain(DecodedTerrain&&) = default;
   DecodedTerrain& operator=(DecodedTerrain&&) = default;

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include "microtin/compact_pack.hpp"
@@ -434,6 +435,38 @@ TEST_CASE_TEMPLATE("pack: tiles that break a rule are refused, here and on the h
   const Contract two = {2, 4, 3, kMinDegree, Coding::kBalanced, false, false};
   check(forged_pack(grid, {good, {write_header(two, {}), good.vertices}}),
         MICROTIN_STATUS_CHECKSUM);
+}
+
+TEST_CASE_TEMPLATE("pack: a chunk with marks behind a tile is skipped, here and on the host",
+                   Device, MeshSlots, CompactSlots) {
+  const ForgedTile plain = forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 3, 3}, {4, 3, 4}}, {}});
+  ForgedTile marked = plain, malformed = plain;
+  const DecodedTerrain decoded(plain.stream);
+  uint32_t v[3];  // of a triangle that is real: two of its corners have an edge
+  uint32_t t = 0;
+  while (microtin_mesh_triangle(decoded.mesh(), t, v) != MICROTIN_TRIANGLE_REAL) ++t;
+  append_edge_marks(decoded.mesh(), {{LineClass::kRidge, {v[0], v[1]}}}, marked.stream);
+  REQUIRE(DecodedTerrain(marked.stream).marked_edges() == 1);
+  malformed.stream.insert(malformed.stream.end(), {19, 1, 5});  // a chunk of one byte
+  append_check(malformed.stream, plain.stream.size());
+  CHECK_THROWS_WITH(DecodedTerrain(malformed.stream),
+                    "the marks of edges behind the stream are malformed");
+  for (const ForgedTile& tile : {plain, marked, malformed}) {
+    const Bytes bytes = forged_pack({8, 3, 4, 3}, {plain, tile});
+    Card card{bytes};
+    const Device device(2);
+    CHECK(device.load(card, at(6, 1)) == MICROTIN_STATUS_OK);
+    const std::optional<DecodedTerrain> found = PackFile(bytes).tile(1);
+    REQUIRE(found);
+    CHECK(found->marked_edges() == 0);
+    CHECK(found->mark_bytes() == 0);
+    uint32_t hint = 0;
+    int32_t height = 0, on_host = 1;
+    CHECK(device.height_at(6 * 256, 256, height) == MICROTIN_QUERY_OK);
+    CHECK(microtin_mesh_height_at(found->mesh(), 2 * 256, 256, &hint, &on_host, 0, 0) ==
+          MICROTIN_QUERY_OK);
+    CHECK(height == on_host);
+  }
 }
 
 TEST_CASE_TEMPLATE("pack: all fields of a tile without terrain are 0", Device, MeshSlots,

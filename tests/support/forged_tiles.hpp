@@ -29,7 +29,7 @@ inline ForgedTile forged_tile(const Tin& tin) {
 // The lowest and the highest height of a stream's vertices; nothing if it cannot be decoded.
 inline void add_heights(const std::vector<uint8_t>& stream, TileSummary& summary) {
   try {
-    const DecodedTerrain decoded(stream);
+    const DecodedTerrain decoded(stream, {}, MarkChunks::kSkip);
     summary.lowest = INT16_MAX;
     summary.highest = INT16_MIN;
     for (uint32_t v = 0; v < microtin_mesh_vertex_count(decoded.mesh()); ++v) {
