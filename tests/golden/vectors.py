@@ -13,6 +13,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 import reference_decoder as decoder  # noqa: E402
+import reference_lines as lines  # noqa: E402
 import reference_symbols as symbols  # noqa: E402
 from reference_pack import fnv32  # noqa: E402
 
@@ -69,6 +70,24 @@ CIRCLES = [points(0, 0, 4, 0, 0, 4, 1, 1), points(0, 0, 4, 0, 0, 4, 9, 9), point
 # A hull edge and a point: left, right, between, beyond each end, at an end.
 EDGES = [points(0, 0, 4, 0, 2, 1), points(0, 0, 4, 0, 2, 0), points(4, 0, 0, 0, 2, 1), points(0, 0, 4, 0, 5, 0),
          points(0, 0, 4, 2, 2, 1), points(0, 0, 4, 0, 4, 0), points(9, 3, 1, 3, 5, 3), points(9, 3, 1, 3, 0, 3)]
+
+
+# Three positions: straight on, a little to the left and to the right, a right angle, back, large areas and squares.
+BENDS = [points(0, 0, 10, 0, 20, 0), points(0, 0, 10, 0, 20, 1), points(0, 9, 10, 9, 20, 8),
+         points(0, 0, 10, 0, 10, 7), points(0, 0, 10, 0, 3, 2), points(5, 5, 6, 8, 9, 30), points(0, 0, 65535, 0, 65535, 65535),
+         points(0, 0, 40000, 3, 65535, 65535), points(65535, 0, 1000, 1000, 0, 65535),
+         points(1, 0, 1, 1, 65535, 65535)]
+
+
+def inserted(mesh, a, v, b):
+    """Inserts b behind the edge from a to v. Returns the cavity and its ring."""
+    chord = next(e for e in range(len(mesh.origin)) if mesh.origin[e] == a and mesh.origin[mesh.following(e)] == v)
+    assert mesh.in_conflict(chord // 3, b)
+    cavity, boundary = mesh.find_cavity(chord, b)
+    assert boundary[0] == chord
+    ring = [mesh.origin[e] for e in boundary]
+    mesh.insert(b, cavity, boundary)
+    return cavity, ring
 
 
 def conflict(corners, p):
@@ -139,22 +158,46 @@ SEED = points(0, 0, 40, 30, 0, 30)
 INSERTIONS = [[0, -1, (40, 0)], [0, 3, (16, 12)], [1, -1, (20, 30)], [3, 1, (24, 12)], [1, -1, (39, 36)]]
 
 
-def insertion_vector():
-    mesh, steps = decoder.Mesh(), []
+def seeded_mesh():
+    mesh = decoder.Mesh()
     mesh.vertices = list(SEED)
     mesh.seed()
+    return mesh
+
+
+def insertion_vector():
+    mesh, steps = seeded_mesh(), []
     for a, v, b in INSERTIONS:
-        chord = next(e for e in range(len(mesh.origin)) if mesh.origin[e] == a and mesh.origin[mesh.following(e)] == v)
-        assert mesh.in_conflict(chord // 3, b)
-        cavity, boundary = mesh.find_cavity(chord, b)
-        assert boundary[0] == chord
-        ring = [mesh.origin[e] for e in boundary]
-        mesh.insert(b, cavity, boundary)
+        cavity, ring = inserted(mesh, a, v, b)
         steps.append({"chord": [a, v], "vertex": b, "cavity": cavity, "ring": ring,
                       "triangles": [mesh.corners(t) for t in range(len(mesh.origin) // 3)]})
     mesh.heights = [7 * x - y - 100 for x, y in mesh.vertices]
     void = next(t for t in range(len(mesh.origin) // 3) if mesh.is_real(t))
     return {"seed": SEED, "insertions": steps, "heights": mesh.heights, "void": void, "digest": "%016x" % mesh.digest({void})}
+
+
+def bend_vector(u, v, w):
+    stub = lines.LineReader.__new__(lines.LineReader)
+    stub.mesh = decoder.Mesh()
+    stub.mesh.vertices, stub.mesh.origin = [u, v, w], [0, 1, 2]
+    return [u, v, w, stub.bend(0, 1)]
+
+
+def marks_vector(edges, dice):
+    """Lines among the edges of the mesh of the insertions, with as many marks, and the script that makes them."""
+    mesh = seeded_mesh()
+    for step in INSERTIONS:
+        inserted(mesh, *step)
+    while True:
+        stub, script = lines.LineReader.__new__(lines.LineReader), Script(dice)
+        stub.mesh, stub.rows, stub.marks, stub.lines = mesh, lines.starts(), {}, []
+        stub.left, stub.coder = edges, script
+        try:
+            stub.decode()
+        except symbols.Refusal:
+            continue
+        return {"vertices": mesh.vertices, "triangles": [mesh.corners(t) for t in range(len(mesh.origin) // 3)],
+                "edges": edges, "symbols": script.noted, "lines": stub.lines}
 
 
 def height_vector(size, spread, dice):
@@ -307,6 +350,8 @@ def vectors():
         "height": [height_vector(*h, dice) for h in ((3, 3), (5, 40), (8, 300), (12, 3000), (32, 20000))],
         "position": place_vectors(dice),
         "position around infinity": hull_vectors(dice),
+        "bend": [bend_vector(*three) for three in BENDS],
+        "marks": [marks_vector(edges, Dice(edges)) for edges in (1, 2, 5, 8, 11, 14)],
     }
 
 

@@ -4,16 +4,19 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <deque>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "decoder/range_decoder.hpp"
 #include "encoder/stream/header.hpp"
 #include "shared/digest.hpp"
+#include "shared/edge_marks.hpp"
 #include "shared/header.hpp"
 #include "shared/pack_format.hpp"
 #include "shared/reconstruction.hpp"
@@ -104,6 +107,13 @@ Json ghost_conflict(const Json& v) {
   return conflicts_with_ghost(point_in(v[0]), point_in(v[1]), point_in(v[2])) ? 1 : 0;
 }
 
+// A half-edge of one triangle leads from u to v, and its next one to w.
+Json bend_at(const Json& v) {
+  Point place[3] = {point_in(v[0]), point_in(v[1]), point_in(v[2])};
+  Index origin[3] = {0, 1, 2};
+  return bend_of({place, nullptr, origin, nullptr, 3, 1}, 0, 1);
+}
+
 using Function = Json (*)(const Json&);
 
 const std::map<std::string, Function>& functions() {
@@ -121,6 +131,7 @@ const std::map<std::string, Function>& functions() {
       {"segment",
        [](const Json& v) -> Json { return cap(entry<uint32_t>(v, 0), entry<int32_t>(v, 1)); }},
       {"incircle", incircle_of},
+      {"bend", bend_at},
       {"conflict with a triangle", triangle_conflict},
       {"conflict with a ghost", ghost_conflict}};
   return all;
@@ -410,6 +421,55 @@ void check_hull_position(const Json& v) {
   CHECK(v["tallies afterwards"] == tallies_of(habits));
 }
 
+// --- Lines ---------------------------------------------------------------------------------------
+
+// A script of a reader.
+struct MarkScript : Script {
+  static bool begins(Index) { return false; }
+  static uint32_t line_class(Index) { return 0; }
+  static uint32_t way(Index, const Ways&) { return 0; }
+};
+
+void set_mesh(const Json& v, SmallMesh& small) {
+  Mesh& mesh = small.mesh;
+  for (const Json& vertex : v["vertices"]) mesh.place[mesh.vertices++] = point_in(vertex);
+  for (const Json& triangle : v["triangles"]) {
+    for (Index i = 0; i < 3; ++i) {
+      mesh.origin[first_edge(mesh.triangles) + i] = vertex_number(triangle[i]);
+    }
+    ++mesh.triangles;
+  }
+  for (Index h = 0; h < first_edge(mesh.triangles); ++h) {
+    mesh.twin[h] = half_edge(mesh, mesh.origin[next_in_triangle(h)], mesh.origin[h]);
+  }
+}
+
+void check_marks(const Json& v) {
+  SmallMesh small;
+  set_mesh(v, small);
+  uint8_t marks[edge_mark_bytes(16)] = {};
+  EdgeMarking marking{};
+  begin_marking(marking, small.mesh, marks, v["edges"].get<uint32_t>());
+  MarkScript script{{v["symbols"]}};
+  std::vector<std::pair<uint32_t, std::deque<Index>>> lines;
+  while (marking.left != 0) {
+    const uint32_t before = marking.left;
+    REQUIRE(code_marks(marking, script));
+    if (marking.left == before) continue;
+    const Index end = end_of(small.mesh, marking.last);
+    if (marking.stage == MarkStage::kBackward) {
+      lines.back().second.push_front(end);
+      continue;
+    }
+    if (marking.last == marking.first) {
+      lines.push_back({marking.kind, {small.mesh.origin[marking.first]}});
+    }
+    lines.back().second.push_back(end);
+  }
+  CHECK(script.is_at_end());
+  CHECK(v["lines"] == Json(lines));
+}
+
 using Check = void (*)(const Json&);
 
 const std::map<std::string, Check>& checks() {
@@ -421,7 +481,8 @@ const std::map<std::string, Check>& checks() {
       {"insertion", check_insertion},
       {"height", check_height},
       {"position", check_position},
-      {"position around infinity", check_hull_position}};
+      {"position around infinity", check_hull_position},
+      {"marks", check_marks}};
   return all;
 }
 
