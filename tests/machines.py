@@ -184,7 +184,9 @@ class Cluster:
         self.start("scheduler", "--port", "0", "--no-dashboard")
         end = time.monotonic() + PATIENCE
         while not self.has_address():
-            expect(time.monotonic() < end, "the scheduler does not start")
+            if time.monotonic() > end:
+                self.stop()
+                sys.exit("rejected: the scheduler does not start")
             time.sleep(0.05)
 
     def has_address(self):
