@@ -100,7 +100,7 @@ TEST_CASE("diff: tiles that differ are listed" * kSlow) {
   CHECK(contains(changed.err, "of 16 tiles differ from those of a.mtp"));
   REQUIRE(session.run("encode t.asc --max-error 20 --tile-size 32 -o d.mtp").code == 0);
   CHECK(session.failure("diff a.mtp d.mtp") ==
-        "a.mtp, d.mtp: have other tiles or another lattice\n");
+        "a.mtp, d.mtp: have other tiles or another lattice; compare packs of one plan\n");
   session.write("no.mtp", "no pack");
   CHECK(session.failure("diff a.mtp no.mtp").find("no.mtp: ") == 0);
 }

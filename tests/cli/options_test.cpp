@@ -230,7 +230,7 @@ const std::vector<OptionRow> kOptionRows = {
     {"render", "--epsg", "m.mtin -o o.png --width 300 --source t.asc", "32633:5715"},
     {"render", "--units", "m.mtin -o o.png --width 300 --source t.asc", ":cm"},
     {"render", "--depths", "m.mtin -o o.png --width 300 --source t.asc", ""},
-    {"render", "--gridded", "filled.mtin -o m.png --width 300 --source g.xyz", ""},
+    {"render", "--gridded", "filled.mtin -o m.png --width 300 --source p.xyz", ""},
     {"render", "--force", "", ""},  // 2^24 vertices: tests/cli/decode_grid_test.cpp
     {"render", "--fill-voids", "filled.mtin -o o.png --width 300 --source t.asc", "99"},
     {"render", "--water-level", "lake.mtin -o m.png --width 300 --source t.asc", "50"},

@@ -261,7 +261,7 @@ TEST_CASE("autopilot: heights that do not fit and other cells are refused" * kSl
     return std::string();
   };
   CHECK(refusal(surface_of(cell), {44, 9}, Autopilot::kInav) ==
-        "the terrain has no height in the cell");
+        "the terrain has no height in the cell; name the file after a cell that has some");
   SampledSurface cliff = surface_of(cell);
   cliff.height_at =
       answering([](int64_t x, int64_t) { return x < 600 * 256 ? 0 : 2050 * 10 * 65536; });
@@ -273,7 +273,8 @@ TEST_CASE("autopilot: heights that do not fit and other cells are refused" * kSl
   SampledSurface tower = surface_of(cell);
   tower.placement.z = {0, 100, 1};
   tower.height_at = answering([](int64_t, int64_t) { return 400 * 65536; });
-  CHECK(refusal(tower, cell, Autopilot::kArduPilot) == "a height of 40000 m does not fit 16 bits");
+  CHECK(refusal(tower, cell, Autopilot::kArduPilot) ==
+        "a height of 40000 m does not fit 16 bits; cut such heights out of the terrain");
 }
 
 TEST_CASE("autopilot: the suffix selects the autopilot") {

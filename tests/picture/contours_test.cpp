@@ -130,7 +130,8 @@ TEST_CASE("contours: intervals are round, and too many lines are refused" * kSlo
   CHECK(*round_interval(-52.74, -51.06) == Decimal{1, 1});
   CHECK(*round_interval(0, 0.5) == Decimal{5, 2});
   SurfaceModel steep = grid_model(2, [](int64_t x, int64_t) { return 30000 * x; });
-  CHECK_THROWS_WITH_AS(contours_of(steep, {1, 3}), "the interval of contours is too small", Error);
+  CHECK_THROWS_WITH_AS(contours_of(steep, {1, 3}),
+                       "the interval of contours is too small; use a larger one", Error);
   steep.placement.z = {INT64_MAX, (uint64_t{1} << 40) - 1, 1};
   CHECK_THROWS_AS(contours_of(steep, {1, 9}), Error);
 }
