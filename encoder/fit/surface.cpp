@@ -166,9 +166,11 @@ bool Surface::can_insert(Point p, Index hint) {
 
 // Below 2^33 (area, of which all together have no more) times 2^17.
 int64_t Surface::volume(Index triangle) const {
+  const int64_t covered = area(triangle);
+  if (covered == 0) return 0;  // a ghost has a corner without a height
   const Index* const corner = mesh().origin + first_edge(triangle);
   const int64_t heights = int64_t{heights_[corner[0]]} + heights_[corner[1]] + heights_[corner[2]];
-  return area(triangle) * heights;
+  return covered * heights;
 }
 
 int64_t Surface::area(Index triangle) const {
