@@ -22,8 +22,9 @@ constexpr std::size_t kRanks = 3;
 // and after them other vertices may go.
 constexpr int kNearTries = 2, kNearest = 1, kFarther = 2;
 
-// Where the area around a vertex is more than so many times the usual one, it is tried less often,
-// the less the larger that is: on a level sea all moves succeed, and look at many posts.
+// A vertex is tried less often if the area around it is more than kLarge times the mean one: twice
+// that area halves the attempts. On a level sea all moves succeed, look at many posts, and gain
+// nothing.
 constexpr int64_t kLarge = 4;
 
 // Posts that a vertex tries.

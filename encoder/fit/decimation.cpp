@@ -85,9 +85,10 @@ void Decimation::begin_pass() {
     copies_.push_back(surface_);
     workers_.push_back({copies_.back(), Attempts(copies_.back()), 0});
   }
+  const int64_t usual_area = 3 * surface_.covered_area() / surface_.vertices();
   for (Worker& worker : workers_) {
     worker.attempts.set_cheapness(cheapness_);
-    worker.attempts.set_usual_area(3 * surface_.covered_area() / surface_.vertices());
+    worker.attempts.set_usual_area(usual_area);
     worker.attempts.prefer(preferred_);
   }
 }

@@ -137,7 +137,7 @@ bool HeightFit::is_hopeless(Vertex vertex) const {
   return sum > hopeless_;
 }
 
-// The sum of squared distances from the bounds, as far as it matters whether that is hopeless.
+// The sum of squared distances from the bounds. Above hopeless_ it may stop at a part of the sum.
 float HeightFit::excess_under(Vertex va, Vertex vb, Vertex vc) const {
   const Along rise = Weights(va, vb, vc).rise(va, vb, vc);
   const PostIndex& posts = surface_.posts();
@@ -326,7 +326,7 @@ void HeightFit::add_posts(const std::array<Vertex, 3>& corner) {
   posts_ = end;
 }
 
-// For so many posts, and lanes that begin before the last ends.
+// Makes room for `posts` posts, and for lanes that reach beyond the last one.
 void HeightFit::reserve(std::size_t posts) {
   if (posts + kLanes <= error_.size()) return;
   const std::size_t size = 2 * posts + kLanes;

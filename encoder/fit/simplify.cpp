@@ -260,7 +260,8 @@ std::vector<int> steps_to_try(const SimplifyOptions& options, bool has_own_bound
 // most bits: then a step is tried that is coarser, if the coarsest of all others is the best.
 constexpr int kFewSteps = 6, kCoarseStep = 140;
 
-// Heights beside those that are given, or between posts, must find a step that suits all of them.
+// Whether heights are held by more than the bounds of posts: by breaklines, or by a bound that
+// holds between posts, too. A coarse step then often has no height within all limits.
 bool needs_fine_steps(const LatticeOptions& lattice) {
   return lattice.bound_at == BoundScope::kEverywhere || !lattice.breaklines.empty();
 }
@@ -376,7 +377,7 @@ double trial_part(Search search) {
 
 }  // namespace
 
-constexpr long kLargestPower = 3;  // of two: above that it makes no difference
+constexpr long kLargestPower = 3;  // of two; above that, any even number
 
 Decimal step_near(Decimal own, Decimal bound, int hundredths) {
   constexpr double kMost = 1e15;  // heights have fewer steps

@@ -62,13 +62,13 @@ struct Approximation {
   Tin tin;
 };
 
-// The multiple of a source's own step near so many hundredths of the bound and one own step: a
-// power of two, if it is small, else even. A surface then is a multiple of the own step at more
-// posts, in the middle of an edge above all, and a multiple may be as far off as the bound, where
-// other numbers have to be nearer.
+// A z step near `hundredths` hundredths of the sum of the bound and the source's own step. It is
+// the own step times 1, 2, 4, 8, or a larger even number. With such a step the surface is a
+// multiple of the own step at more posts, above all in the middle of an edge. A multiple may be as
+// far off as the bound; numbers between multiples must be nearer.
 Decimal step_near(Decimal own, Decimal bound, int hundredths);
 
-// A part that leaves room for what holds heights otherwise, too: lines, and bounds between posts.
+// Hundredths of the bound for a step that also suits breaklines and bounds between posts.
 constexpr int kFineStep = 40;
 
 // Lays the source out and simplifies it. If there is a bound but no z step, the step is the one of

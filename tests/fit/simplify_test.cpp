@@ -315,10 +315,10 @@ TEST_CASE("simplify: errors keep their balance where most of the ground is low o
   }
 }
 
-// With so few vertices none can move far enough. Mean errors are 0.22 and 0.20 of those of a search
-// that does not care about them. Without added vertices they are 0.45 and 0.54.
+// With so few vertices none can move far enough. Mean errors are 0.20 and 0.11 of those of a search
+// that does not care about them. Without added vertices they are 0.48 and 0.45.
 TEST_CASE("simplify: vertices are added on a plain for the sake of the mean error") {
-  const std::pair<int32_t, double> most[] = {{2 * kStep, 0.3}, {5 * kStep / 2, 0.3}};
+  const std::pair<int32_t, double> most[] = {{2 * kStep, 0.27}, {5 * kStep / 2, 0.27}};
   for (const auto& [bound, part] : most) {
     const int32_t allowed = bound;
     double centred = 0, as_it_comes = 0;
