@@ -297,6 +297,7 @@ void Dataset::add_raster(const char* cell) {
 void Dataset::add_layers() {
   layers_.push_back(vertex_layer(surface_, system_));
   layers_.push_back(triangle_layer(surface_, system_));
+  if (auto lines = line_layer(surface_, system_)) layers_.push_back(std::move(lines));
 }
 
 OGRLayer* Dataset::GetLayer(int i) {

@@ -50,6 +50,9 @@ std::unique_ptr<OGRLayer> vertex_layer(const encoder::Surface& surface,
                                        const OGRSpatialReference& system);
 std::unique_ptr<OGRLayer> triangle_layer(const encoder::Surface& surface,
                                          const OGRSpatialReference& system);
+// Null: the file has no lines.
+std::unique_ptr<OGRLayer> line_layer(const encoder::Surface& surface,
+                                     const OGRSpatialReference& system);
 
 // Encodes the first band: a pack if the name ends in .mtp, else a stream.
 GDALDataset* create_copy(const char* path, GDALDataset* source, int strict, char** options,

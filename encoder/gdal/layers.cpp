@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vertices and triangles as features, tile by tile.
+// Vertices and triangles as features, tile by tile; marked lines as features.
 #include <utility>
 
 #include "encoder/gdal/dataset.hpp"
@@ -8,29 +8,26 @@ namespace microtin::gdal {
 namespace {
 
 using encoder::Box;
+using encoder::Line;
 using encoder::Mesh;
 using encoder::Surface;
 using encoder::SurfaceInfo;
 
-// Features of all tiles, of which one is decoded at a time. Of a pack they say which tile is
-// theirs, as its column and row; vertices on borders come once for each.
+OGRPoint point(const std::array<double, 3>& place) {
+  return {place[0], place[1], place[2]};
+}
+
+// Features in the surface's coordinate system, one after the other.
 class Layer : public OGRLayer {
  public:
-  Layer(const Surface& surface, const OGRSpatialReference& system, const char* name,
-        OGRwkbGeometryType type)
-      : surface_(surface), info_(surface.info()), definition_(new OGRFeatureDefn(name)) {
+  Layer(const OGRSpatialReference& system, const char* name, OGRwkbGeometryType type)
+      : definition_(new OGRFeatureDefn(name)) {
     SetDescription(name);
     definition_->Reference();
     definition_->SetGeomType(type);
     if (!system.IsEmpty()) {
       system_ = system.Clone();
       definition_->GetGeomFieldDefn(0)->SetSpatialRef(system_);
-    }
-    if (info_.is_pack) {
-      for (const char* field : {"tile_column", "tile_row"}) {
-        OGRFieldDefn number(field, OFTInteger);
-        definition_->AddFieldDefn(&number);
-      }
     }
   }
   ~Layer() override {
@@ -41,6 +38,55 @@ class Layer : public OGRLayer {
   Layer& operator=(const Layer&) = delete;
 
   OGRFeatureDefn* GetLayerDefn() override { return definition_; }
+  OGRFeature* GetNextFeature() override {
+    return guarded([this] { return next_feature(); }, static_cast<OGRFeature*>(nullptr));
+  }
+
+ protected:
+  // Null behind the last one.
+  virtual std::unique_ptr<OGRFeature> take_feature() = 0;
+
+  bool has_filter() const { return m_poFilterGeom != nullptr || m_poAttrQuery != nullptr; }
+
+  void add_field(const char* name, OGRFieldType type) {
+    OGRFieldDefn field(name, type);
+    definition_->AddFieldDefn(&field);
+  }
+
+  std::unique_ptr<OGRFeature> feature(GIntBig number, std::unique_ptr<OGRGeometry> shape) const {
+    auto made = std::make_unique<OGRFeature>(definition_);
+    made->SetFID(number);
+    shape->assignSpatialReference(system_);
+    made->SetGeometryDirectly(shape.release());
+    return made;
+  }
+
+ private:
+  OGRFeature* next_feature() {
+    while (std::unique_ptr<OGRFeature> feature = take_feature()) {
+      const bool fits =
+          (m_poFilterGeom == nullptr || FilterGeometry(feature->GetGeometryRef()) != 0) &&
+          (m_poAttrQuery == nullptr || m_poAttrQuery->Evaluate(feature.get()) != 0);
+      if (fits) return feature.release();
+    }
+    return nullptr;
+  }
+
+  OGRFeatureDefn* definition_;
+  OGRSpatialReference* system_ = nullptr;
+};
+
+// Features of all tiles, of which one is decoded at a time. Of a pack they say which tile is
+// theirs, as its column and row; vertices on borders come once for each.
+class MeshLayer : public Layer {
+ public:
+  MeshLayer(const Surface& surface, const OGRSpatialReference& system, const char* name,
+            OGRwkbGeometryType type)
+      : Layer(system, name, type), surface_(surface), info_(surface.info()) {
+    if (!info_.is_pack) return;
+    for (const char* field : {"tile_column", "tile_row"}) add_field(field, OFTInteger);
+  }
+
   void ResetReading() override {
     tile_ = next_ = 0;
     number_ = 0;
@@ -59,16 +105,19 @@ class Layer : public OGRLayer {
     return field == 0 ? GetExtent(extent, force) : OGRERR_FAILURE;
   }
 
-  OGRFeature* GetNextFeature() override {
-    return guarded([this] { return next_feature(); }, static_cast<OGRFeature*>(nullptr));
-  }
-
  protected:
   virtual size_t count(const Mesh& mesh) const = 0;
   virtual std::unique_ptr<OGRGeometry> geometry(const Mesh& mesh, size_t i) const = 0;
 
-  static OGRPoint point(const std::array<double, 3>& place) {
-    return {place[0], place[1], place[2]};
+  std::unique_ptr<OGRFeature> take_feature() override {
+    if (!go_to_feature()) return nullptr;
+    const GIntBig fid = number_ + static_cast<GIntBig>(next_);
+    std::unique_ptr<OGRFeature> taken = feature(fid, geometry(mesh_, next_++));
+    if (info_.is_pack) {
+      taken->SetField(0, static_cast<int>(column()));
+      taken->SetField(1, static_cast<int>(row()));
+    }
+    return taken;
   }
 
  private:
@@ -79,17 +128,6 @@ class Layer : public OGRLayer {
     envelope.MaxX = box.east;
     envelope.MaxY = box.north;
     return envelope;
-  }
-
-  OGRFeature* next_feature() {
-    while (go_to_feature()) {
-      std::unique_ptr<OGRFeature> feature = take_feature();
-      const bool fits =
-          (m_poFilterGeom == nullptr || FilterGeometry(feature->GetGeometryRef()) != 0) &&
-          (m_poAttrQuery == nullptr || m_poAttrQuery->Evaluate(feature.get()) != 0);
-      if (fits) return feature.release();
-    }
-    return nullptr;
   }
 
   // Reads tiles up to one that has a feature left; false behind the last. A tile that cannot be
@@ -123,26 +161,11 @@ class Layer : public OGRLayer {
     }
   }
 
-  std::unique_ptr<OGRFeature> take_feature() {
-    auto feature = std::make_unique<OGRFeature>(definition_);
-    feature->SetFID(number_ + static_cast<GIntBig>(next_));
-    if (info_.is_pack) {
-      feature->SetField(0, static_cast<int>(column()));
-      feature->SetField(1, static_cast<int>(row()));
-    }
-    std::unique_ptr<OGRGeometry> shape = geometry(mesh_, next_++);
-    shape->assignSpatialReference(system_);
-    feature->SetGeometryDirectly(shape.release());
-    return feature;
-  }
-
   uint32_t column() const { return static_cast<uint32_t>(tile_ % info_.tile_columns); }
   uint32_t row() const { return static_cast<uint32_t>(tile_ / info_.tile_columns); }
 
   const Surface& surface_;
   const SurfaceInfo& info_;
-  OGRFeatureDefn* definition_;
-  OGRSpatialReference* system_ = nullptr;
   Mesh mesh_;  // of the tile
   uint64_t tile_ = 0;
   size_t next_ = 0;     // feature of the tile
@@ -150,16 +173,13 @@ class Layer : public OGRLayer {
   bool is_read_ = false;
 };
 
-class Vertices : public Layer {
+class Vertices : public MeshLayer {
  public:
   Vertices(const Surface& surface, const OGRSpatialReference& system)
-      : Layer(surface, system, "vertices", wkbPoint25D), all_(surface.info().vertices) {}
+      : MeshLayer(surface, system, "vertices", wkbPoint25D), all_(surface.info().vertices) {}
 
   GIntBig GetFeatureCount(int force) override {
-    if (m_poFilterGeom != nullptr || m_poAttrQuery != nullptr) {
-      return OGRLayer::GetFeatureCount(force);
-    }
-    return static_cast<GIntBig>(all_);
+    return has_filter() ? OGRLayer::GetFeatureCount(force) : static_cast<GIntBig>(all_);
   }
 
  protected:
@@ -172,10 +192,10 @@ class Vertices : public Layer {
   uint64_t all_;
 };
 
-class Triangles : public Layer {
+class Triangles : public MeshLayer {
  public:
   Triangles(const Surface& surface, const OGRSpatialReference& system)
-      : Layer(surface, system, "triangles", wkbPolygon25D) {}
+      : MeshLayer(surface, system, "triangles", wkbPolygon25D) {}
 
  protected:
   size_t count(const Mesh& mesh) const override { return mesh.triangles.size(); }
@@ -192,6 +212,40 @@ class Triangles : public Layer {
   }
 };
 
+class Lines : public Layer {
+ public:
+  Lines(std::vector<Line> lines, const OGRSpatialReference& system)
+      : Layer(system, "lines", wkbLineString25D), lines_(std::move(lines)) {
+    add_field("class", OFTString);
+  }
+
+  void ResetReading() override { next_ = 0; }
+  int TestCapability(const char* capability) override {
+    return EQUAL(capability, OLCZGeometries) ? TRUE : FALSE;
+  }
+  GIntBig GetFeatureCount(int force) override {
+    return has_filter() ? OGRLayer::GetFeatureCount(force) : static_cast<GIntBig>(lines_.size());
+  }
+
+ protected:
+  std::unique_ptr<OGRFeature> take_feature() override {
+    if (next_ >= lines_.size()) return nullptr;
+    const Line& line = lines_[next_];
+    auto shape = std::make_unique<OGRLineString>();
+    for (const auto& vertex : line.vertices) {
+      const OGRPoint place = point(vertex);
+      shape->addPoint(&place);
+    }
+    std::unique_ptr<OGRFeature> taken = feature(static_cast<GIntBig>(next_++), std::move(shape));
+    taken->SetField(0, line.line_class.c_str());
+    return taken;
+  }
+
+ private:
+  std::vector<Line> lines_;
+  size_t next_ = 0;
+};
+
 }  // namespace
 
 std::unique_ptr<OGRLayer> vertex_layer(const Surface& surface, const OGRSpatialReference& system) {
@@ -201,6 +255,11 @@ std::unique_ptr<OGRLayer> vertex_layer(const Surface& surface, const OGRSpatialR
 std::unique_ptr<OGRLayer> triangle_layer(const Surface& surface,
                                          const OGRSpatialReference& system) {
   return std::make_unique<Triangles>(surface, system);
+}
+
+std::unique_ptr<OGRLayer> line_layer(const Surface& surface, const OGRSpatialReference& system) {
+  std::vector<Line> lines = surface.lines();
+  return lines.empty() ? nullptr : std::make_unique<Lines>(std::move(lines), system);
 }
 
 }  // namespace microtin::gdal

@@ -335,6 +335,43 @@ class Driver(unittest.TestCase):
             area = sum(feature.GetGeometryRef().GetArea() for feature in triangles)
             self.assertLess(abs(area / (100 * ((ROWS - 1) * (COLUMNS - 1) - VOID.sum())) - 1), 0.005)
 
+    def test_the_lines_of_a_file_are_a_layer(self):
+        """The ones that the tool's `decode` writes, which GDAL reads as GeoJSON."""
+        path, decoded = self.path("lines.mtin"), self.path("lines.geojson")
+        ridge = [[600100, 4999800, 75], [601200, 4999800, 80], [601900, 4999100, 90]]
+        dam = [[602100, 4999500], [602900, 4998700]]
+        with open(decoded, "w") as file:
+            features = [
+                {"type": "Feature", "properties": {"class": kind}, "geometry": {"type": "LineString", "coordinates": line}}
+                for kind, line in (("ridge", ridge), ("dam", dam))
+            ]
+            json.dump({"type": "FeatureCollection", "features": features}, file)
+        options = ["MAX_ERROR=40", "BREAKLINES=" + decoded]
+        gdal.Translate(path, self.path("hills.tif"), format="MTIN", creationOptions=options)
+        run(TOOL, "decode", path, "-o", decoded, "--force")
+        dataset = gdal.OpenEx(path, gdal.OF_VECTOR)
+        names = [dataset.GetLayer(i).GetName() for i in range(dataset.GetLayerCount())]
+        self.assertEqual(names, ["vertices", "triangles", "lines"])
+        lines, expected = dataset.GetLayer(2), gdal.OpenEx(decoded, gdal.OF_VECTOR)
+        self.assertEqual(lines.GetGeomType(), ogr.wkbLineString25D)
+        self.assertEqual(lines.GetSpatialRef().GetAuthorityCode(None), "25832")
+
+        def content(layer):
+            return [(f.GetField("class"), f.GetGeometryRef().GetPoints()) for f in layer]
+
+        self.assertEqual(content(lines), content(expected.GetLayer(0)))
+        self.assertEqual(content(lines), content(lines), "read again")
+        self.assertEqual(lines.GetFeatureCount(), 2)
+        self.assertEqual([f.GetFID() for f in lines], [0, 1])
+        lines.SetAttributeFilter("class = 'dam'")
+        self.assertEqual((lines.GetFeatureCount(), len(content(lines))), (1, 1))
+        lines.SetAttributeFilter(None)
+        lines.SetSpatialFilterRect(600000, 4999000, 602000, 5000000)
+        self.assertEqual([kind for kind, _ in content(lines)], ["ridge"])
+        vertices = {f.GetGeometryRef().GetPoint() for f in dataset.GetLayer(0)}
+        lines.SetSpatialFilter(None)
+        self.assertLessEqual({place for _, places in content(lines) for place in places}, vertices)
+
     def test_filters(self):
         for path in self.both():
             dataset = gdal.OpenEx(path, gdal.OF_VECTOR)
