@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writing decoded terrains as meshes that other programs read.
+// Meshes and lines in formats that other programs read.
 #include "encoder/export/mesh.hpp"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string>
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/text.hpp"
@@ -14,6 +15,7 @@
 #include "encoder/exact/units.hpp"
 #include "encoder/export/json.hpp"
 #include "encoder/export/scene.hpp"
+#include "encoder/terrain/exact_query.hpp"
 
 namespace microtin::exporting {
 
@@ -305,6 +307,29 @@ void export_glb(const SurfaceModel& model, Coordinates coordinates, OutputFile& 
   for (const auto& corners : model.triangles) {
     for (const uint32_t corner : corners) words.write(corner);
   }
+}
+
+// Writes lines as GeoJSON.
+
+void export_lines(const microtin_mesh* mesh, const std::vector<MarkedLine>& lines,
+                  const Placement& placement, OutputFile& out) {
+  const CoordinateText x_text(placement.x), y_text(placement.y), z_text(placement.z);
+  out.write("{\"type\": \"FeatureCollection\", \"features\": [");
+  const char* before = "\n";
+  for (const MarkedLine& line : lines) {
+    out.write(before + std::string("{\"type\": \"Feature\", \"properties\": {\"class\": ") +
+              json(name_of(line.kind)) +
+              "}, \"geometry\": {\"type\": \"LineString\", \"coordinates\": [");
+    std::string places;
+    for (const uint32_t v : line.vertices) {
+      const Vertex vertex = vertex_of(mesh, v);
+      places += (places.empty() ? "[" : ", [") + x_text(vertex.x) + ", " + y_text(vertex.y) + ", " +
+                z_text(vertex.z) + ']';
+    }
+    out.write(places + "]}}");
+    before = ",\n";
+  }
+  out.write("\n]}\n");
 }
 
 }  // namespace microtin::exporting

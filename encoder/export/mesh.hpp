@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Writing decoded terrains as meshes that other programs read.
+// Writing decoded terrains as meshes, and their lines as GeoJSON.
 #ifndef MICROTIN_ENCODER_EXPORT_MESH_HPP
 #define MICROTIN_ENCODER_EXPORT_MESH_HPP
 
 #include <string>
+#include <vector>
 
 #include "encoder/export/queries.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/stream/decoded_terrain.hpp"
+#include "encoder/stream/edge_marks.hpp"
 #include "microtin/microtin.h"
 
 namespace microtin::exporting {
@@ -41,6 +43,10 @@ void export_glb(const SurfaceModel& model, Coordinates coordinates, OutputFile& 
 
 // Bytes of vertices and triangles, without the description before them, below 4 KB.
 uint64_t glb_bytes(uint64_t vertices, uint64_t triangles);
+
+// A feature for each line, with its class as a property and a height at each position.
+void export_lines(const microtin_mesh* mesh, const std::vector<MarkedLine>& lines,
+                  const Placement& placement, OutputFile& out);
 
 }  // namespace microtin::exporting
 

@@ -9,7 +9,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/units.hpp"
-#include "encoder/picture/relief.hpp"
+#include "encoder/picture/maps.hpp"
 
 namespace microtin::picture {
 namespace {

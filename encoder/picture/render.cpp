@@ -7,13 +7,11 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/units.hpp"
-#include "encoder/picture/contours.hpp"
 #include "encoder/picture/drawing.hpp"
-#include "encoder/picture/error_map.hpp"
 #include "encoder/picture/frame.hpp"
 #include "encoder/picture/lettering.hpp"
-#include "encoder/picture/lines.hpp"
-#include "encoder/picture/relief.hpp"
+#include "encoder/picture/map_lines.hpp"
+#include "encoder/picture/maps.hpp"
 
 namespace microtin::picture {
 namespace {

@@ -15,7 +15,7 @@ void main() {
   gl_Position = view * vec4((position + offset) * stretch, 1.0);
 }`;
 
-// As in encoder/picture/relief.cpp.
+// As in encoder/picture/maps.cpp.
 const GROUND = `#version 300 es
 precision highp float;
 in vec3 upward;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Contours against the planes of the triangles, and by their shapes.
-#include "encoder/picture/contours.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <map>
 
 #include "encoder/base/error.hpp"
+#include "encoder/picture/map_lines.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/point_sets.hpp"
 #include "tests/support/slow.hpp"

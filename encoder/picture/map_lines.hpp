@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Lines of equal height: on a mesh, and on a map with their heights.
-#ifndef MICROTIN_ENCODER_PICTURE_CONTOURS_HPP
-#define MICROTIN_ENCODER_PICTURE_CONTOURS_HPP
+// Lines on a map: those of equal height with their heights, and those of the terrain.
+#ifndef MICROTIN_ENCODER_PICTURE_MAP_LINES_HPP
+#define MICROTIN_ENCODER_PICTURE_MAP_LINES_HPP
 
 #include <optional>
 #include <vector>
@@ -11,6 +11,7 @@
 #include "encoder/picture/drawing.hpp"
 #include "encoder/picture/frame.hpp"
 #include "encoder/picture/palette.hpp"
+#include "encoder/stream/edge_marks.hpp"
 
 namespace microtin::picture {
 
@@ -59,6 +60,11 @@ void draw_contours(Canvas& canvas, const MapFrame& frame, const std::vector<Cont
 void label_contours(Drawing& drawing, const MapFrame& frame, const std::vector<Contour>& contours,
                     const std::vector<ContourLine>& lines, Decimal interval, double unit,
                     std::optional<Spot> occupied);
+
+// In the colour of each line's class. The lines' vertices are those of the model; `unit` as of
+// legends.
+void draw_marked_lines(Drawing& drawing, const MapFrame& frame, const SurfaceModel& model,
+                       const std::vector<MarkedLine>& lines, double unit);
 
 }  // namespace microtin::picture
 
