@@ -152,9 +152,6 @@ struct RenderRequest : TerrainRequest {
 
 void run_render(const RenderRequest& request);
 
-// The command decode where it writes an ESRI ASCII grid.
-void decode_to_grid(const DecodeRequest& request);
-
 }  // namespace microtin::cli
 
 #endif

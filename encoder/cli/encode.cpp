@@ -12,7 +12,6 @@
 #include "encoder/base/error.hpp"
 #include "encoder/base/text.hpp"
 #include "encoder/cli/commands.hpp"
-#include "encoder/cli/progress.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/files/descriptors.hpp"

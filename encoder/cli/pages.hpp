@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pages about the command line, out of its definitions: help, the manual page, the page of the
-// documents, shell completion, and versions. One source has help and versions; others have the
-// rest.
+// documents, shell completion, and versions. Completion has a source of its own.
 #ifndef MICROTIN_ENCODER_CLI_PAGES_HPP
 #define MICROTIN_ENCODER_CLI_PAGES_HPP
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Printing reports.
+// What commands print: reports, and how far the work is.
 #ifndef MICROTIN_ENCODER_CLI_REPORT_HPP
 #define MICROTIN_ENCODER_CLI_REPORT_HPP
 
+#include <chrono>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "encoder/base/progress.hpp"
 #include "encoder/exact/decimal.hpp"
 #include "encoder/export/json.hpp"
 #include "encoder/files/output.hpp"
@@ -67,6 +69,28 @@ uint64_t most_vertices(const std::string& path, uint64_t vertices, bool forced);
 
 // The report as JSON, or as a line "name: value" for each entry.
 std::string text_of(const JsonObject& report, bool as_json);
+
+// Draws how far the work is and, after a second, how many seconds are left, on standard error if
+// that is a terminal. Wipes it off at the end.
+class ProgressBar {
+ public:
+  ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+  ~ProgressBar();
+
+  // Reports to the bar, which must outlive it.
+  Progress progress();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void draw(double done);
+
+  bool on_terminal_;
+  bool drawn_ = false;
+  Clock::time_point start_ = Clock::now(), last_ = start_;
+};
 
 }  // namespace microtin::cli
 

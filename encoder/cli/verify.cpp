@@ -2,7 +2,6 @@
 // The command verify: compares a stream or a pack with its terrain and judges.
 #include "encoder/base/error.hpp"
 #include "encoder/cli/commands.hpp"
-#include "encoder/cli/progress.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/import/breaklines.hpp"
