@@ -14,8 +14,7 @@
 #include "encoder/cli/options.hpp"
 #include "encoder/cli/pages.hpp"
 #include "encoder/cli/report.hpp"
-#include "encoder/files/descriptors.hpp"
-#include "encoder/files/leftovers.hpp"
+#include "encoder/files/process.hpp"
 
 #ifdef __GLIBC__
 #include <malloc.h>

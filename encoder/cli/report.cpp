@@ -6,7 +6,7 @@
 #include <string>
 
 #include "encoder/base/error.hpp"
-#include "encoder/files/descriptors.hpp"
+#include "encoder/files/process.hpp"
 #include "encoder/product/document.hpp"
 #include "microtin/surface.hpp"
 

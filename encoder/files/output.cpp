@@ -12,9 +12,8 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/files/descriptors.hpp"
 #include "encoder/files/file_access.hpp"
-#include "encoder/files/leftovers.hpp"
+#include "encoder/files/process.hpp"
 
 namespace microtin::files {
 namespace fs = std::filesystem;

@@ -15,7 +15,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/files/file_access.hpp"
-#include "encoder/files/leftovers.hpp"
+#include "encoder/files/process.hpp"
 #include "encoder/layers.hpp"
 
 namespace microtin::files {

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "encoder/files/descriptors.hpp"
+#include "encoder/files/process.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/session.hpp"
 #include "tests/support/slow.hpp"

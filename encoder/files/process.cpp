@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A list of temporary files that a signal handler removes.
-#include "encoder/files/leftovers.hpp"
+#include "encoder/files/process.hpp"
 
 #include <atomic>
 #include <cstring>

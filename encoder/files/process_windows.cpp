@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a process gets from Windows.
+// What a process gets from Windows, and what Ctrl-C does.
 #include <fcntl.h>
 #include <io.h>
 
@@ -7,10 +7,13 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "encoder/files/descriptors.hpp"
+#include "encoder/files/process.hpp"
 #include "encoder/files/windows_names.hpp"
 
 namespace microtin::files {
+
+// What a process gets from Windows.
+
 namespace {
 
 UINT code_page_before = 0;
@@ -63,6 +66,44 @@ uint64_t machine_memory() {
   MEMORYSTATUSEX status{};
   status.dwLength = sizeof status;
   return GlobalMemoryStatusEx(&status) != 0 ? status.ullTotalPhys : 0;
+}
+
+// Ctrl-C and its like, which Windows answers in a thread of its own, remove the leftovers.
+
+namespace {
+
+// Held while a file is created and is not yet a leftover. Once a thread may enter it twice.
+struct Section {
+  Section() : own() { InitializeCriticalSection(&own); }
+  CRITICAL_SECTION own;
+};
+
+Section& section() {
+  static Section* const only = new Section;  // never destroyed: a handler may still wait for it
+  return *only;
+}
+
+// Ends the process as Windows does by default, with this status. No other file is created before.
+BOOL WINAPI remove_and_die(DWORD) {
+  EnterCriticalSection(&section().own);
+  for_each_leftover([](const char* path) { DeleteFileW(wide(path).c_str()); });
+  TerminateProcess(GetCurrentProcess(), STATUS_CONTROL_C_EXIT);
+  return TRUE;
+}
+
+}  // namespace
+
+void remove_leftovers_on_signals() {
+  section();
+  SetConsoleCtrlHandler(remove_and_die, TRUE);
+}
+
+SignalsHeld::SignalsHeld() {
+  EnterCriticalSection(&section().own);
+}
+
+SignalsHeld::~SignalsHeld() {
+  LeaveCriticalSection(&section().own);
 }
 
 }  // namespace microtin::files
