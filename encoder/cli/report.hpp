@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "encoder/base/progress.hpp"
+#include "encoder/base/work.hpp"
 #include "encoder/exact/decimal.hpp"
 #include "encoder/export/json.hpp"
 #include "encoder/files/output.hpp"

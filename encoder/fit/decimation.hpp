@@ -10,8 +10,7 @@
 #include <functional>
 #include <vector>
 
-#include "encoder/base/progress.hpp"
-#include "encoder/base/team.hpp"
+#include "encoder/base/work.hpp"
 #include "encoder/fit/attempts.hpp"
 #include "encoder/fit/random.hpp"
 #include "encoder/fit/surface.hpp"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "encoder/base/team.hpp"
+#include "encoder/base/work.hpp"
 #include "encoder/fit/balance.hpp"
 #include "encoder/fit/surface.hpp"
 #include "encoder/layers.hpp"

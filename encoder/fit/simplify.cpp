@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/team.hpp"
+#include "encoder/base/work.hpp"
 #include "encoder/fit/decimation.hpp"
 #include "encoder/fit/error_model.hpp"
 #include "encoder/fit/height_choice.hpp"

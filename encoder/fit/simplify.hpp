@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "encoder/base/progress.hpp"
+#include "encoder/base/work.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/terrain/lay_out.hpp"

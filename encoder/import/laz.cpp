@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string>
 
-#include "encoder/base/progress.hpp"
+#include "encoder/base/work.hpp"
 #include "encoder/import/laz_coder.hpp"
 
 namespace microtin::importing {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/progress.hpp"
+#include "encoder/base/work.hpp"
 #include "encoder/fit/simplify.hpp"
 #include "encoder/pack/kept_tiles.hpp"
 #include "encoder/pack/tile_plan.hpp"

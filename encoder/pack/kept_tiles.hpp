@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "encoder/base/progress.hpp"
+#include "encoder/base/work.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/borders.hpp"
 #include "encoder/pack/file.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "encoder/base/progress.hpp"
+#include "encoder/base/work.hpp"
 
 namespace microtin::pack {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/progress.hpp"
+#include "encoder/base/work.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/fit/simplify.hpp"
 #include "encoder/pack/point_survey.hpp"

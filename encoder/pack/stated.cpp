@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/progress.hpp"
+#include "encoder/base/work.hpp"
 #include "encoder/pack/file.hpp"
 #include "encoder/terrain/exact_query.hpp"
 

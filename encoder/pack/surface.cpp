@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/progress.hpp"
+#include "encoder/base/work.hpp"
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/pack/borders.hpp"
 #include "encoder/pack/tiled_lines.hpp"

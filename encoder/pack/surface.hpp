@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "encoder/base/progress.hpp"
+#include "encoder/base/work.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
 #include "encoder/stream/decoded_terrain.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/progress.hpp"
+#include "encoder/base/work.hpp"
 #include "encoder/pack/tile.hpp"
 #include "encoder/terrain/raster_scan.hpp"
 #include "microtin/compact_pack.h"

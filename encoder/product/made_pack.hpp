@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "encoder/base/progress.hpp"
+#include "encoder/base/work.hpp"
 #include "encoder/export/grid.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/import/import.hpp"

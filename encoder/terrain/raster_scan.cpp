@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "encoder/base/progress.hpp"
+#include "encoder/base/work.hpp"
 
 namespace microtin::terrain {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "encoder/base/progress.hpp"
+#include "encoder/base/work.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/lattice_choice.hpp"
 #include "encoder/terrain/raster_reader.hpp"

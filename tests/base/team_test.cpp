@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "encoder/base/team.hpp"
-
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -8,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "encoder/base/work.hpp"
 
 namespace microtin::tests {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Threads wait for the next round of work: first awake, since it mostly comes soon, then asleep.
-#include "encoder/base/team.hpp"
+#include "encoder/base/work.hpp"
 
 #include <utility>
 
