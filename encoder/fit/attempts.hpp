@@ -3,6 +3,7 @@
 #ifndef MICROTIN_ENCODER_FIT_ATTEMPTS_HPP
 #define MICROTIN_ENCODER_FIT_ATTEMPTS_HPP
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,12 +11,45 @@
 #include <vector>
 
 #include "encoder/fit/height_fit.hpp"
-#include "encoder/fit/random.hpp"
-#include "encoder/fit/region.hpp"
 #include "encoder/fit/surface.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/stream/spatial_order.hpp"
+#include "shared/format.hpp"
+#include "shared/predicates.hpp"
 
 namespace microtin::fit {
+
+// Sequences from different seeds have nothing in common.
+class RandomNumbers {
+ public:
+  explicit RandomNumbers(uint64_t seed) : state_(scramble(seed)) {}
+
+  // 0 .. limit - 1, where limit is below 2^32.
+  std::size_t below(std::size_t limit) {
+    return static_cast<std::size_t>((scramble(++state_) >> 32) * limit >> 32);
+  }
+
+ private:
+  uint64_t state_;
+};
+
+// The least rectangle around some places; empty at first.
+class Region {
+ public:
+  void add(Point p) {
+    low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+    high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
+  }
+
+  // Whether they share a place.
+  bool meets(const Region& other) const {
+    return std::max(low_.x, other.low_.x) <= std::min(high_.x, other.high_.x) &&
+           std::max(low_.y, other.low_.y) <= std::min(high_.y, other.high_.y);
+  }
+
+ private:
+  Point low_{kLatticeMax, kLatticeMax}, high_{0, 0};
+};
 
 // What an attempt changed.
 struct Outcome {

@@ -12,7 +12,6 @@
 
 #include "encoder/base/work.hpp"
 #include "encoder/fit/attempts.hpp"
-#include "encoder/fit/random.hpp"
 #include "encoder/fit/surface.hpp"
 #include "encoder/layers.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "encoder/fit/post_limits.hpp"
+#include "encoder/fit/error_model.hpp"
 #include "encoder/stream/triangulation.hpp"
 #include "shared/interpolation.hpp"
 

@@ -9,7 +9,6 @@
 
 #include "encoder/fit/error_model.hpp"
 #include "encoder/fit/post_index.hpp"
-#include "encoder/fit/post_limits.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/stream/triangulation.hpp"
 #include "encoder/terrain/survey.hpp"

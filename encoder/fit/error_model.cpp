@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Limits of posts, and planes to compare with them.
-#include "encoder/fit/post_limits.hpp"
+#include "encoder/fit/error_model.hpp"
 
 #include <algorithm>
 
