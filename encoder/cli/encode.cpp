@@ -25,7 +25,7 @@
 #include "encoder/product/public_options.hpp"
 #include "encoder/terrain/clouds.hpp"
 #include "encoder/terrain/voids.hpp"
-#include "encoder/verify/everywhere_bound.hpp"
+#include "encoder/verify/everywhere.hpp"
 
 namespace microtin::cli {
 namespace {

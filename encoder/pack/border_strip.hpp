@@ -9,7 +9,7 @@
 
 #include "encoder/layers.hpp"
 #include "encoder/pack/borders.hpp"
-#include "encoder/verify/everywhere_bound.hpp"
+#include "encoder/verify/everywhere.hpp"
 
 namespace microtin::pack {
 

@@ -15,7 +15,7 @@
 #include "encoder/pack/kept_tiles.hpp"
 #include "encoder/pack/tile_plan.hpp"
 #include "encoder/stream/encode.hpp"
-#include "encoder/verify/everywhere_bound.hpp"
+#include "encoder/verify/everywhere.hpp"
 
 namespace microtin::pack {
 namespace {

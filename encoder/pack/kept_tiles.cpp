@@ -9,7 +9,6 @@
 #include "encoder/terrain/exact_query.hpp"
 #include "encoder/verify/breaklines.hpp"
 #include "encoder/verify/everywhere.hpp"
-#include "encoder/verify/everywhere_bound.hpp"
 #include "encoder/verify/verify.hpp"
 
 namespace microtin::pack {

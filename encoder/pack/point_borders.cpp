@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Cuts edges of the global triangulation where tiles meet, at shared vertices.
-#include "encoder/pack/point_borders.hpp"
-
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
 #include <map>
 
 #include "encoder/base/work.hpp"
+#include "encoder/pack/point_tiles.hpp"
 
 namespace microtin::pack {
 namespace {

@@ -13,8 +13,7 @@
 #include "encoder/base/work.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/fit/simplify.hpp"
-#include "encoder/pack/point_survey.hpp"
-#include "encoder/pack/point_tile.hpp"
+#include "encoder/pack/point_tiles.hpp"
 #include "encoder/pack/tile_plan.hpp"
 #include "encoder/verify/verify.hpp"
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Merges points that share a place, and bounds the heights there.
-#include "encoder/pack/point_survey.hpp"
-
 #include <algorithm>
 #include <map>
 
 #include "encoder/exact/fraction.hpp"
+#include "encoder/pack/point_tiles.hpp"
 
 namespace microtin::pack {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // One tile of a cloud of points: what lies in it, its survey and its stream.
-#include "encoder/pack/point_tile.hpp"
-
 #include <algorithm>
 #include <utility>
 
 #include "encoder/base/error.hpp"
+#include "encoder/pack/point_tiles.hpp"
 #include "encoder/stream/encode.hpp"
 
 namespace microtin::pack {

@@ -12,7 +12,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/files/file_access.hpp"
 #include "encoder/stream/header.hpp"
-#include "encoder/verify/everywhere_bound.hpp"
+#include "encoder/verify/everywhere.hpp"
 
 namespace microtin::pack {
 namespace {

@@ -13,7 +13,6 @@
 #include "encoder/stream/encode.hpp"
 #include "encoder/terrain/exact_query.hpp"
 #include "encoder/verify/everywhere.hpp"
-#include "encoder/verify/everywhere_bound.hpp"
 #include "shared/pack_format.hpp"
 #include "shared/predicates.hpp"
 

@@ -13,7 +13,7 @@
 #include "encoder/pack/borders.hpp"
 #include "encoder/pack/tile.hpp"
 #include "encoder/stream/encode.hpp"
-#include "encoder/verify/everywhere_bound.hpp"
+#include "encoder/verify/everywhere.hpp"
 #include "encoder/verify/verify.hpp"
 
 namespace microtin::pack {

@@ -22,7 +22,6 @@
 #include "encoder/terrain/clouds.hpp"
 #include "encoder/verify/breaklines.hpp"
 #include "encoder/verify/everywhere.hpp"
-#include "encoder/verify/everywhere_bound.hpp"
 #include "encoder/verify/verify.hpp"
 
 namespace microtin::product {

@@ -11,7 +11,6 @@
 #include "encoder/stream/header.hpp"
 #include "encoder/terrain/raster_scan.hpp"
 #include "encoder/verify/everywhere.hpp"
-#include "encoder/verify/everywhere_bound.hpp"
 
 namespace microtin::product {
 namespace {

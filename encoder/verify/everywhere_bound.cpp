@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Narrows the limits of posts until a surface lies between two bilinear ones.
-#include "encoder/verify/everywhere_bound.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -14,7 +14,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/import/import.hpp"
-#include "encoder/pack/point_survey.hpp"
+#include "encoder/pack/point_tiles.hpp"
 #include "tests/support/border_walk.hpp"
 #include "tests/support/pack_device.hpp"
 #include "tests/support/paths.hpp"

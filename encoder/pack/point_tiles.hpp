@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The borders between the tiles of a pack of points (format-pack.md, section 3).
-#ifndef MICROTIN_ENCODER_PACK_POINT_BORDERS_HPP
-#define MICROTIN_ENCODER_PACK_POINT_BORDERS_HPP
+// A cloud of points in tiles: the cloud on the lattice of the pack, which is wider than that of a
+// stream; the borders between tiles (format-pack.md, section 3); and each tile. Each has a source
+// of its own.
+#ifndef MICROTIN_ENCODER_PACK_POINT_TILES_HPP
+#define MICROTIN_ENCODER_PACK_POINT_TILES_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -12,9 +14,45 @@
 #include "encoder/layers.hpp"
 #include "encoder/pack/borders.hpp"
 #include "encoder/pack/global_triangulation.hpp"
-#include "encoder/pack/point_survey.hpp"
+#include "encoder/pack/tile.hpp"
+#include "encoder/terrain/lay_out.hpp"
 
 namespace microtin::pack {
+
+// As a Sample, anywhere in the pack.
+struct GlobalSample {
+  GlobalPost place;
+  int32_t height, lowest, highest;
+};
+
+struct PointSurvey {
+  Lattice lattice;
+  uint32_t x_max, y_max;              // of the samples
+  std::vector<GlobalSample> samples;  // distinct places, in lexicographic order
+  Decimal xy_step, z_step;
+  Decimal xy_displacement;  // as in Laid
+  uint64_t merged = 0;
+};
+
+// Lays the cloud out as lay_out does, but on choose_pack_lattice. Throws Error as these do; places
+// where the bound cannot be kept are counted within 2^16 x 2^16 places. O(n log n).
+PointSurvey survey_points(const PointCloud& cloud, const LatticeOptions& options);
+
+std::vector<GlobalPost> places_of(const std::vector<GlobalSample>& samples);
+
+// A place that no pack has.
+constexpr GlobalPost kNowhere{UINT32_MAX, UINT32_MAX};
+
+// Where the points of a cloud lie on a lattice so placed; kNowhere beyond the largest x and y.
+std::vector<GlobalPost> places_on(const PointCloud& cloud, const Placement& lattice, uint32_t x_max,
+                                  uint32_t y_max);
+
+// The placement of a part of the lattice whose places count from there. Throws Error if no axis can
+// say that.
+Placement placement_from(const Placement& whole, GlobalPost first);
+
+// The points with these numbers.
+PointCloud part_of(const PointCloud& cloud, const std::vector<uint32_t>& points);
 
 // The height of a line's crossing with an edge of the triangulation, or of a sample on the line.
 struct Crossing {
@@ -99,6 +137,56 @@ class PointBorders {
   TileGrid grid_;
   BorderTolerance tolerance_;
   Lines north_, east_;
+};
+
+// Numbers of things by the tiles that hold their places, in each of them, in order. Things whose
+// place lies outside the pack are in none.
+class TileContents {
+ public:
+  TileContents(const TileGrid& grid, const std::vector<GlobalPost>& places);
+
+  std::vector<uint32_t> of_tile(uint32_t tile) const {
+    return {numbers_.begin() + start_[tile], numbers_.begin() + start_[std::size_t{tile} + 1]};
+  }
+  uint32_t size_of(uint32_t tile) const {
+    return static_cast<uint32_t>(start_[std::size_t{tile} + 1] - start_[tile]);
+  }
+
+ private:
+  std::vector<uint32_t> numbers_;
+  std::vector<std::ptrdiff_t> start_;  // by tile, and one more
+};
+
+// A cloud that is cut into tiles.
+struct TiledCloud {
+  const PointCloud& cloud;
+  const PointSurvey& survey;
+  const GlobalTriangulation& triangulation;  // of the places of the samples
+  LatticeOptions lattice;
+  SimplifyOptions simplify;
+  BorderTolerance tolerance;
+  TileGrid grid;
+};
+
+class PointTiles {
+ public:
+  // Both must outlive this.
+  PointTiles(const TiledCloud& tiled, const PointBorders& borders);
+
+  // The samples inside a tile and, as fixed ones, the vertices that it shares.
+  Survey survey_of(uint32_t tile) const;
+
+  // The vertices that it takes with such options, 0 if it has no terrain.
+  uint32_t vertices_of(uint32_t tile, const SimplifyOptions& options) const;
+
+  // Encodes it, given the numbers of the points that lie in it. Throws Error if the decoded stream
+  // does not meet the options.
+  EncodedTile encode(uint32_t tile, const std::vector<uint32_t>& points) const;
+
+ private:
+  const TiledCloud& tiled_;
+  const PointBorders& borders_;
+  TileContents samples_;
 };
 
 }  // namespace microtin::pack
