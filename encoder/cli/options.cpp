@@ -8,7 +8,7 @@
 
 #include "encoder/cli/definitions.hpp"
 #include "encoder/files/output.hpp"
-#include "encoder/import/cell_list.hpp"
+#include "encoder/import/import.hpp"
 
 namespace microtin::cli {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Lists of files that make up a terrain, and of cells that are sea.
-#include "encoder/import/cell_list.hpp"
-
 #include <filesystem>
 #include <string_view>
 
 #include "encoder/base/error.hpp"
 #include "encoder/files/input.hpp"
+#include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"
 
 namespace microtin::importing {

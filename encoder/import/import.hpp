@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reading terrains from the files they come in.
+// Reading terrains from the files they come in, and lists of such files.
 #ifndef MICROTIN_ENCODER_IMPORT_IMPORT_HPP
 #define MICROTIN_ENCODER_IMPORT_IMPORT_HPP
 
@@ -12,6 +12,7 @@
 
 #include "encoder/files/input.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/terrain/degrees.hpp"
 #include "encoder/terrain/raster_reader.hpp"
 #include "encoder/terrain/source.hpp"
 
@@ -93,6 +94,18 @@ Raster import_zip(const std::string& name, const std::string& bytes);
 Raster import_gdal(const std::string& path, Indirect indirect, uint32_t band);
 std::vector<std::string> gdal_files(const std::string& path, Indirect indirect);
 #endif
+
+// Lists of files that make up a terrain, and of cells that are sea.
+
+struct CellList {
+  std::vector<std::string> files;  // or folders
+  std::vector<DegreeCell> sea;
+};
+
+// Reads a list of a name a line; names are relative to the list's folder. "sea N50W010" says that a
+// cell without a file is sea. Blank lines and those that begin with # are skipped. Throws Error
+// naming the list and the line.
+CellList read_cell_list(const std::string& path);
 
 }  // namespace microtin::importing
 

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "encoder/base/work.hpp"
-#include "encoder/import/laz_coder.hpp"
 
 namespace microtin::importing {
 namespace {

@@ -2,11 +2,10 @@
 // The entropy coding of LAZ: an arithmetic decoder, and the models that adapt to what it decodes.
 // A. Said, Introduction to Arithmetic Coding, HPL-2004-76, describes the method. The numbers of
 // bits, the cycles and the roundings are those of LASzip, since a decoder must repeat them.
-#include "encoder/import/laz_coder.hpp"
-
 #include <algorithm>
 
 #include "encoder/base/error.hpp"
+#include "encoder/import/laz.hpp"
 
 namespace microtin::importing {
 namespace {

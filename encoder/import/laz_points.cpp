@@ -11,7 +11,6 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/import/laz.hpp"
-#include "encoder/import/laz_coder.hpp"
 
 namespace microtin::importing {
 namespace {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Reading compressed laser scans. The scans are compressed here, by an encoder of the tests' own.
+#include "encoder/import/laz.hpp"
+
 #include <doctest/doctest.h>
 
 #include "encoder/import/import.hpp"
-#include "encoder/import/laz_coder.hpp"
 #include "tests/support/imports.hpp"
 #include "tests/support/laz_file.hpp"
 
