@@ -14,7 +14,6 @@
 #include "encoder/cli/report.hpp"
 #include "encoder/files/input.hpp"
 #include "encoder/files/output.hpp"
-#include "encoder/picture/page.hpp"
 #include "encoder/picture/render.hpp"
 #include "encoder/product/document.hpp"
 #include "encoder/product/public_options.hpp"

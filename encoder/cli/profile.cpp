@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The command profile: the heights along a line as a report, a table or a picture.
-#include "encoder/picture/profile.hpp"
+#include "microtin/profile.hpp"
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -19,7 +19,6 @@
 #include "encoder/files/output.hpp"
 #include "encoder/picture/render.hpp"
 #include "encoder/product/place_query.hpp"
-#include "microtin/profile.hpp"
 
 namespace microtin::cli {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What pictures are drawn on: pixels, which become PNG files, or SVG files of lines and areas.
+// What pictures are drawn on: pixels, which become PNG files, or SVG files of lines and areas; and
+// text on it.
 #ifndef MICROTIN_ENCODER_PICTURE_DRAWING_HPP
 #define MICROTIN_ENCODER_PICTURE_DRAWING_HPP
 
@@ -7,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "encoder/export/scene.hpp"
@@ -176,6 +178,25 @@ class Svg final : public Drawing {
   Tenths pen_{0, 0};      // in the open element
   bool has_pen_ = false;  // a line may go on from there
 };
+
+// Text, which has a source of its own.
+
+// Digits and capitals are 7 units high, letters reach 2 below the line.
+constexpr double kCapHeight = 7;
+
+// The first character that is not drawn; empty if all are. There are digits, Latin letters with
+// Western accents (those up to U+00FF), blanks and . , : ; ! ? + - = / & _ ( ) ' " and the degree.
+std::string_view missing_letter(std::string_view text);
+
+// In units: without the room behind the last character.
+double text_width(std::string_view text);
+
+constexpr double kPen = 0.8;  // how wide strokes are, in units
+
+// `start` is where the first character begins on the line, `unit` a number of pixels, `along` the
+// direction in which text runs, of length 1. UTF-8; missing letters leave a blank.
+void draw_text(Drawing& drawing, std::string_view text, Spot start, double unit, Colour colour,
+               Spot along = {1, 0}, double pen = kPen);
 
 }  // namespace microtin::picture
 

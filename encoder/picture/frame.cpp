@@ -9,7 +9,7 @@
 #include <string>
 
 #include "encoder/export/scene.hpp"
-#include "encoder/picture/lettering.hpp"
+#include "encoder/picture/drawing.hpp"
 
 namespace microtin::picture {
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Letters made of strokes.
-#include "encoder/picture/lettering.hpp"
-
 #include <array>
 #include <utility>
 
 #include "encoder/base/text.hpp"
+#include "encoder/picture/drawing.hpp"
 
 namespace microtin::picture {
 namespace {

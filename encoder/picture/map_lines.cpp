@@ -10,7 +10,6 @@
 #include "encoder/base/error.hpp"
 #include "encoder/picture/drawing.hpp"
 #include "encoder/picture/frame.hpp"
-#include "encoder/picture/lettering.hpp"
 
 namespace microtin::picture {
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Fills the places of the page.
-#include "encoder/picture/page.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,6 +8,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/picture/maps.hpp"
+#include "encoder/picture/render.hpp"
 
 namespace microtin::picture {
 namespace {

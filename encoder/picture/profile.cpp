@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Lays out a profile and draws it.
-#include "encoder/picture/profile.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "encoder/picture/drawing.hpp"
 #include "encoder/picture/frame.hpp"
-#include "encoder/picture/lettering.hpp"
+#include "encoder/picture/render.hpp"
 
 namespace microtin::picture {
 namespace {

@@ -9,7 +9,6 @@
 #include "encoder/exact/units.hpp"
 #include "encoder/picture/drawing.hpp"
 #include "encoder/picture/frame.hpp"
-#include "encoder/picture/lettering.hpp"
 #include "encoder/picture/map_lines.hpp"
 #include "encoder/picture/maps.hpp"
 

@@ -30,7 +30,7 @@ def source(text):
     lines = ",\n".join(",".join(numbers[i : i + 32]) for i in range(0, len(numbers), 32))
     return f"""// SPDX-License-Identifier: MIT
 // Made by encoder/viewer/build.py.
-#include "encoder/picture/page.hpp"
+#include "encoder/picture/render.hpp"
 
 namespace microtin::picture {{
 

@@ -2,8 +2,8 @@
 // What pictures say in words and numbers.
 #include <doctest/doctest.h>
 
+#include "encoder/picture/drawing.hpp"
 #include "encoder/picture/frame.hpp"
-#include "encoder/picture/lettering.hpp"
 #include "tests/support/layers.hpp"
 
 using namespace microtin::tests;

@@ -9,7 +9,6 @@
 #include <memory>
 
 #include "encoder/base/error.hpp"
-#include "encoder/picture/page.hpp"
 #include "encoder/stream/decoded_terrain.hpp"
 #include "encoder/stream/encode.hpp"
 #include "tests/support/layers.hpp"
