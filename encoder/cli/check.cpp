@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The commands check and diff: what is damaged in a file, and how two packs differ.
-#include "encoder/product/check.hpp"
-
 #include "encoder/base/error.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/files/output.hpp"
+#include "encoder/product/document.hpp"
 
 namespace microtin::cli {
 namespace {

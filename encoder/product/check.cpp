@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "encoder/product/check.hpp"
-
+// Looks for damage in a file, and for differences between two packs.
 #include <memory>
 #include <utility>
 

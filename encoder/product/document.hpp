@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the encoder has made, read back: a stream or a pack, whichever a file holds.
+// What the encoder has made, read back and checked: a stream or a pack, whichever a file holds.
 #ifndef MICROTIN_ENCODER_PRODUCT_DOCUMENT_HPP
 #define MICROTIN_ENCODER_PRODUCT_DOCUMENT_HPP
 
@@ -133,6 +133,27 @@ struct OpenPack {
 // Throws Error naming the file if it is no pack, if its header is wrong, or if its index is cut
 // off.
 OpenPack open_pack(const std::string& path);
+
+// What is damaged in a file, and how two packs differ: a source of its own.
+
+struct Checked {
+  uint32_t tiles = 0;  // of a pack; 0: a stream
+  std::vector<TileFault> faults;
+};
+
+// Decodes all of a stream, or all tiles of a pack. Throws Error naming the file if it is a stream
+// that is damaged, or a pack whose header is wrong or whose index is cut off.
+Checked check_file(const std::string& path);
+
+struct Difference {
+  uint32_t tiles = 0;
+  bool is_header_same = false;   // placement and notes, too
+  std::vector<uint32_t> differ;  // the tiles of which bytes differ
+};
+
+// Throws Error naming a file that is no pack, or is damaged; or both, if they have other tiles or
+// another lattice.
+Difference compare_packs(const std::string& first, const std::string& second);
 
 }  // namespace microtin::product
 
