@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // What the commands accept; encode_options.cpp has those that encode.
-#include "encoder/cli/command_line.hpp"
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -10,7 +8,6 @@
 
 #include "encoder/base/text.hpp"
 #include "encoder/cli/commands.hpp"
-#include "encoder/cli/definitions.hpp"
 #include "encoder/cli/options.hpp"
 #include "encoder/cli/pages.hpp"
 #include "encoder/cli/report.hpp"

@@ -5,10 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "encoder/cli/command_line.hpp"
 #include "encoder/cli/commands.hpp"
-#include "encoder/cli/definitions.hpp"
 #include "encoder/cli/options.hpp"
+#include "encoder/cli/pages.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/product/made_pack.hpp"

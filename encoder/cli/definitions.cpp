@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Reads the definitions of commands and options out of CLI11.
-#include "encoder/cli/definitions.hpp"
-
 #include <CLI/CLI.hpp>
 #include <set>
+
+#include "encoder/cli/pages.hpp"
 
 namespace microtin::cli {
 namespace {

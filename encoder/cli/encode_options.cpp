@@ -7,10 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "encoder/cli/command_line.hpp"
 #include "encoder/cli/commands.hpp"
-#include "encoder/cli/definitions.hpp"
 #include "encoder/cli/options.hpp"
+#include "encoder/cli/pages.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/stream/device_memory.hpp"
 #include "microtin/encoder.hpp"

@@ -10,7 +10,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/text.hpp"
-#include "encoder/cli/command_line.hpp"
+#include "encoder/cli/commands.hpp"
 #include "encoder/cli/options.hpp"
 #include "encoder/cli/pages.hpp"
 #include "encoder/cli/report.hpp"

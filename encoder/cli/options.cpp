@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "encoder/cli/definitions.hpp"
+#include "encoder/cli/pages.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/import/import.hpp"
 

@@ -11,10 +11,9 @@
 #include <string>
 
 #include "encoder/base/text.hpp"
-#include "encoder/cli/command_line.hpp"
 #include "encoder/cli/commands.hpp"
-#include "encoder/cli/definitions.hpp"
 #include "encoder/cli/options.hpp"
+#include "encoder/cli/pages.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/picture/render.hpp"
