@@ -152,6 +152,27 @@ TileTooLarge::TileTooLarge(uint32_t number, uint32_t count, uint32_t steps)
       vertices(count),
       fewer_steps(steps) {}
 
+namespace {
+
+// A tile of at most as many vertices as a tile may have, or one that is kept. Throws TileTooLarge.
+EncodedTile encode_fitting(const PackPlan& plan, uint32_t tile, const SimplifyOptions& options) {
+  const uint32_t most = most_vertices(plan.options, plan.tiled.grid);
+  const bool is_kept = plan.tiled.kept != nullptr && plan.tiled.kept->keeps(tile);
+  const auto is_fitting = [&](const TileSummary& summary) {
+    return is_kept || (summary.vertices <= most && fits(summary, most));
+  };
+  EncodedTile encoded = encode_tile(plan.tiled, tile, options);
+  if (is_fitting(encoded.summary)) return encoded;
+  const uint32_t vertices = encoded.summary.vertices;
+  if (long_search_may_fit(vertices, most, options)) {
+    encoded = encode_tile(plan.tiled, tile, with_long_search(options));
+    if (is_fitting(encoded.summary)) return encoded;
+  }
+  throw TileTooLarge(tile, vertices, smaller_tile_size(plan.tiled.grid, most, vertices));
+}
+
+}  // namespace
+
 void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take) {
   InOrder in_order(range.first, take);
   SimplifyOptions options = plan.options.simplify;
@@ -160,14 +181,7 @@ void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take) {
   options.progress = {};
   for_each_parallel(count, [&](std::size_t i) {
     const uint32_t tile = range.first + static_cast<uint32_t>(i);
-    EncodedTile encoded = encode_tile(plan.tiled, tile, options);
-    const uint32_t vertices = encoded.summary.vertices;
-    const uint32_t most = most_vertices(plan.options, plan.tiled.grid);
-    const bool is_kept = plan.tiled.kept != nullptr && plan.tiled.kept->keeps(tile);
-    if (!is_kept && (vertices > most || !fits(encoded.summary, most))) {
-      throw TileTooLarge(tile, vertices, smaller_tile_size(plan.tiled.grid, most, vertices));
-    }
-    in_order.add(tile, std::move(encoded));
+    in_order.add(tile, encode_fitting(plan, tile, options));
     done.add_one();
   });
 }

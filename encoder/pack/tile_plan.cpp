@@ -31,7 +31,7 @@ constexpr std::size_t kSimplifiedTiles = 24;
 constexpr double kUsualCounts = 4, kCountOfTile = 0.4;
 
 constexpr uint32_t kMostCounts = 5;    // where some fit
-constexpr double kQuickExcess = 1.25;  // of vertices, without searching long: at most, about
+constexpr double kQuickExcess = 1.33;  // of vertices after a fast search: at most, about
 
 // The tiles that probably have most vertices.
 std::vector<uint32_t> roughest_tiles(const TiledRaster& tiled) {
@@ -53,8 +53,8 @@ std::vector<uint32_t> roughest_tiles(const TiledRaster& tiled) {
   return tiles;
 }
 
-// The vertices of the tile that probably has most, without searching long. Tiles that are a little
-// too large that way are counted as they will be encoded.
+// The vertices of the tile that probably has most, by a fast search. Tiles that are a little too
+// large that way are counted as they will be encoded.
 uint32_t most_vertices(const TiledRaster& tiled, uint32_t max_vertices,
                        const SimplifyOptions& options, const Progress& progress) {
   SimplifyOptions quick = options;
@@ -71,7 +71,13 @@ uint32_t most_vertices(const TiledRaster& tiled, uint32_t max_vertices,
     }
     done.add_one();
   });
-  return *std::max_element(vertices.begin(), vertices.end());
+  const auto most = [&] { return *std::max_element(vertices.begin(), vertices.end()); };
+  if (!long_search_may_fit(most(), max_vertices, options)) return most();
+  for_each_parallel(tiles.size(), [&](std::size_t i) {
+    if (vertices[i] <= max_vertices) return;
+    vertices[i] = count_vertices(tiled, tiles[i], with_long_search(options));
+  });
+  return most();
 }
 
 // Into how many pieces the longer side goes, to begin with.

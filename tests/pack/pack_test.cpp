@@ -8,6 +8,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/pack/surface.hpp"
 #include "encoder/pack/tile_plan.hpp"
+#include "encoder/terrain/fractal.hpp"
 #include "microtin/compact.h"
 #include "tests/support/border_walk.hpp"
 #include "tests/support/forged_pack.hpp"
@@ -46,6 +47,19 @@ TEST_CASE("packs have no cracks, and voids stay voids, on borders too" * kSlow) 
     check_pack(raster, pack_options(2, 100));
     check_pack(raster, pack_options(4, 40));
   }
+}
+
+TEST_CASE("packs: a tile with a few vertices too many is searched longer, and fits") {
+  const std::vector<int16_t> heights = fractal_heights(129, 4);
+  const Raster raster = raster_of(129, {heights.begin(), heights.end()});
+  PackOptions options = pack_options(5, 10000);
+  options.simplify.search = Search::kNormal;
+  options.tile_size = 64;
+  const uint32_t usual = pack_of(raster, options).header().most_vertices;
+  options.max_vertices = usual - 1;
+  check_pack(raster, options);
+  options.max_vertices = usual / 2;
+  CHECK_THROWS_AS(pack_of(raster, options), TileTooLarge);
 }
 
 TEST_CASE("packs: heights at voids along borders stay, and missing ones are found" * kSlow) {
