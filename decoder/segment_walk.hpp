@@ -108,8 +108,11 @@ class SegmentWalk {
 
   MICROTIN_ONE_COPY MICROTIN_WITHOUT_CALLS Corner corner_of(uint32_t number) const {
     const Vertex v = cursor_.vertex(number);
-    const LocalPoint at = fine_point(Point{v.x, v.y});
-    return Corner{at, v.z, orient(begin_, end_, at)};
+    Corner corner;
+    corner.at = fine_point(Point{v.x, v.y});
+    corner.side = orient(begin_, end_, corner.at);
+    corner.z = v.z;
+    return corner;
   }
 
   // Whether a walk may come to stand in the triangle at this stage: the steps from there have an
@@ -166,7 +169,7 @@ class SegmentWalk {
   }
 
   // Turns to the edge where the line enters. False if no corner is on the left, or on the right.
-  bool enter() {
+  MICROTIN_OUT_OF_LINE bool enter() {
     for (int i = 0; i < 3; ++i, cursor_.turn()) {
       left_ = corner_of(cursor_.start());
       right_ = corner_of(cursor_.end());

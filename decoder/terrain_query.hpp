@@ -25,11 +25,16 @@ inline bool is_on_lattice(const microtin_segment& segment) {
   return is_on_lattice(segment.x, segment.y) && is_on_lattice(segment.x_end, segment.y_end);
 }
 
-// What a crossing says of the whole segment.
+// What a crossing says of the whole segment. A terrain alone says OK, OUTSIDE or VOID, which are
+// bits: so a crossing costs no comparison.
+static_assert(MICROTIN_QUERY_OUTSIDE == 1 && MICROTIN_QUERY_VOID == 2, "they are different bits");
 inline void note_answer(const Crossing& c, microtin_segment_state* state) {
-  microtin_query_result answer = static_cast<microtin_query_result>(c.answer);
-  answer = worse(answer, static_cast<microtin_query_result>(c.before));
-  state->result = worse(answer, static_cast<microtin_query_result>(state->result));
+  state->result |= static_cast<uint32_t>(c.answer | c.before);
+}
+
+inline microtin_query_result worst_answer(const microtin_segment_state& state) {
+  if ((state.result & MICROTIN_QUERY_OUTSIDE) != 0) return MICROTIN_QUERY_OUTSIDE;
+  return static_cast<microtin_query_result>(state.result & MICROTIN_QUERY_VOID);
 }
 
 // A walk along a segment on the lattice, from where a state stands.
@@ -97,10 +102,9 @@ microtin_query_result next_in_profile(const Form& form, const microtin_segment& 
 }
 
 template <class Form>
-microtin_query_result extremes_in_terrain(const Form& form, const microtin_segment& segment,
-                                          microtin_segment_state* state,
-                                          microtin_segment_extremes* extremes,
-                                          uint32_t step_limit) {
+MICROTIN_IN_PLACE inline microtin_query_result extremes_in_terrain(
+    const Form& form, const microtin_segment& segment, microtin_segment_state* state,
+    microtin_segment_extremes* extremes, uint32_t step_limit) {
   microtin_segment_state own = {};  // without a limit a call needs no state
   microtin_segment_state* const done = state != nullptr ? state : &own;
   clear(extremes);
@@ -110,15 +114,14 @@ microtin_query_result extremes_in_terrain(const Form& form, const microtin_segme
     return MICROTIN_QUERY_STEP_LIMIT;
   }
   get_extremes(*done, extremes);
-  return static_cast<microtin_query_result>(done->result);
+  return worst_answer(*done);
 }
 
 // Margins are those of the terrain.
 template <class Form>
-microtin_query_result clearance_in_terrain(const Form& form, const microtin_path& path,
-                                           microtin_segment_state* state,
-                                           microtin_path_clearance* clearance, uint32_t flags,
-                                           uint32_t step_limit) {
+MICROTIN_IN_PLACE inline microtin_query_result clearance_in_terrain(
+    const Form& form, const microtin_path& path, microtin_segment_state* state,
+    microtin_path_clearance* clearance, uint32_t flags, uint32_t step_limit) {
   microtin_segment_state own = {};
   microtin_segment_state* const done = state != nullptr ? state : &own;
   clear(clearance);
@@ -128,7 +131,7 @@ microtin_query_result clearance_in_terrain(const Form& form, const microtin_path
   if (done->stage == 0) begin_clearance(done);
   if (!walk_terrain(form, path.segment, step_limit, add, done)) return MICROTIN_QUERY_STEP_LIMIT;
   get_clearance(*done, clearance);
-  return static_cast<microtin_query_result>(done->result);
+  return worst_answer(*done);
 }
 
 // A function of a position, as places.hpp has it.

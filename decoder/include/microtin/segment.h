@@ -32,7 +32,7 @@ typedef struct microtin_segment {
 typedef struct microtin_segment_state {
   uint32_t stage;    /* 0: before the first walk step */
   uint32_t triangle; /* the number of the triangle where the walk stands */
-  uint32_t result;   /* the worst microtin_query_result so far */
+  uint32_t result;   /* each microtin_query_result so far, as bits */
   uint32_t is_low;   /* the last crossing has less than the needed clearance */
   int32_t value[2];
   int64_t part[2], whole[2];
