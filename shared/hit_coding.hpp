@@ -4,8 +4,8 @@
 #define MICROTIN_SHARED_HIT_CODING_HPP
 
 #include "shared/free_region.hpp"
-#include "shared/hull_coding.hpp"
 #include "shared/mesh.hpp"
+#include "shared/place_coding.hpp"
 #include "shared/probability.hpp"
 
 namespace microtin {

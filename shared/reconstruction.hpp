@@ -15,10 +15,11 @@
 #define MICROTIN_SHARED_RECONSTRUCTION_HPP
 
 #include "shared/format.hpp"
-#include "shared/hull_coding.hpp"
+#include "shared/height_coding.hpp"
 #include "shared/insertion.hpp"
 #include "shared/marks.hpp"
 #include "shared/models.hpp"
+#include "shared/place_coding.hpp"
 
 namespace microtin {
 
