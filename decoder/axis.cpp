@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "decoder/axis.hpp"
 
-#include "shared/division.hpp"
+#include "shared/fixed_math.hpp"
 
 namespace microtin {
 

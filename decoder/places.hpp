@@ -5,7 +5,7 @@
 #define MICROTIN_DECODER_PLACES_HPP
 
 #include "decoder/touched_tiles.hpp"
-#include "shared/division.hpp"
+#include "shared/fixed_math.hpp"
 
 namespace microtin {
 

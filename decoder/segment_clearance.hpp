@@ -5,7 +5,7 @@
 
 #include "decoder/crossing.hpp"
 #include "microtin/segment.h"
-#include "shared/division.hpp"
+#include "shared/fixed_math.hpp"
 #include "shared/format.hpp"
 #include "shared/interpolation.hpp"
 

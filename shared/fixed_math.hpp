@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Comparisons, and integer logarithms, power and roots for estimates. Identical on every target.
+// Comparisons, integer logarithms, power and roots for estimates, and 64-bit division. Identical on
+// every target.
 #ifndef MICROTIN_SHARED_FIXED_MATH_HPP
 #define MICROTIN_SHARED_FIXED_MATH_HPP
 
@@ -72,6 +73,61 @@ MICROTIN_ONE_COPY inline uint32_t rough_root(uint32_t v) {
   const uint32_t half = highest_bit(v) >> 1;
   const uint32_t guess = (11u * (v >> half) + ((static_cast<uint32_t>(22) << half) + 32u)) >> 5;
   return (guess + v / guess) >> 1;
+}
+
+// Where the machine has no 64-bit division it is done bit by bit: the compilers' helpers, but for
+// those of AVR, are several times the code.
+struct Quotient {
+  uint64_t whole;
+  uint64_t rest;
+};
+
+#if UINTPTR_MAX > 0xFFFFFFFFu || defined(__wasm__) || defined(__AVR__)
+
+// d > 0.
+inline Quotient divide(uint64_t n, uint64_t d) {
+  return Quotient{n / d, n % d};
+}
+
+// floor(n * 2^17 / d), below 2^35; 0 < d <= 2^40.
+inline uint64_t divide_finely(uint64_t n, uint64_t d) {
+  return (n / d << 17) + (n % d << 17) / d;
+}
+
+#else
+
+MICROTIN_OUT_OF_LINE inline Quotient divide(uint64_t n, uint64_t d) {
+  uint64_t bit = 1, whole = 0;
+  for (; d <= n >> 1; d <<= 1) bit <<= 1;
+  for (; bit != 0; bit >>= 1, d >>= 1) {
+    if (n < d) continue;
+    n -= d;
+    whole |= bit;
+  }
+  return Quotient{whole, n};
+}
+
+inline uint64_t divide_finely(uint64_t n, uint64_t d) {
+  uint64_t whole = 0;
+  d <<= 17;
+  for (int i = 0; i < 35; ++i) {
+    whole <<= 1;
+    if (n >= d) {
+      n -= d;
+      ++whole;
+    }
+    n <<= 1;  // < 2 * d <= 2^58
+  }
+  return whole;
+}
+
+#endif
+
+// n / d, rounded down; d > 0.
+inline int64_t floor_of(int64_t n, int64_t d) {
+  const int64_t whole = static_cast<int64_t>(
+      divide(static_cast<uint64_t>(n < 0 ? ~n : n), static_cast<uint64_t>(d)).whole);
+  return n < 0 ? ~whole : whole;
 }
 
 }  // namespace microtin

@@ -3,7 +3,7 @@
 #ifndef MICROTIN_SHARED_INTERPOLATION_HPP
 #define MICROTIN_SHARED_INTERPOLATION_HPP
 
-#include "shared/division.hpp"
+#include "shared/fixed_math.hpp"
 #include "shared/lattice.hpp"
 #include "shared/predicates.hpp"
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "shared/ring_sums.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <vector>
 
+#include "shared/height_coding.hpp"
 #include "tests/support/streams.hpp"
 
 namespace microtin::tests {
