@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Queries on compact terrains.
-#include "decoder/margins.hpp"
 #include "decoder/terrain_forms.hpp"
 #include "decoder/walk.hpp"
 #include "shared/digest.hpp"

@@ -6,12 +6,12 @@
 
 #include "decoder/border_edges.hpp"
 #include "decoder/gradient.hpp"
-#include "decoder/margins.hpp"
 #include "decoder/pack_state.hpp"
 #include "decoder/places.hpp"
 #include "decoder/segment_clearance.hpp"
 #include "decoder/segment_extremes.hpp"
 #include "decoder/tile_segment.hpp"
+#include "decoder/walk.hpp"
 
 namespace microtin {
 

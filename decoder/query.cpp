@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Queries on a decoded mesh.
 #include "decoder/axis.hpp"
-#include "decoder/margins.hpp"
 #include "decoder/state.hpp"
 #include "decoder/walk.hpp"
 #include "shared/digest.hpp"

@@ -19,6 +19,8 @@
 #define MICROTIN_DECODER_WALK_HPP
 
 #include "decoder/state.hpp"
+#include "microtin/microtin.h"
+#include "shared/format.hpp"
 #include "shared/interpolation.hpp"
 
 namespace microtin {
@@ -146,6 +148,18 @@ class MeshCursor {
 
 // Walks as above from *triangle, ghost or not, to another.
 bool walk_to(const microtin_mesh& mesh, FinePoint p, uint32_t step_limit, Index* triangle);
+
+// Widens a height, rounded to nearest at 16 fractional bits, halves up, by margins in sixteenths.
+// The exact height is between half a unit less and half a unit more, so that it lies in lowest ..
+// highest also without margins. All numbers are below 2^23 + 2^24.
+MICROTIN_ONE_COPY inline microtin_query_result widen(int32_t height, uint32_t below, uint32_t above,
+                                                     microtin_safe_heights* heights) {
+  if (below == kNotStated || above == kNotStated) return MICROTIN_QUERY_NO_MARGIN;
+  const int32_t whole = height >> 8;  // rounded down
+  heights->lowest = whole - ((height & 255) == 0 ? 1 : 0) - static_cast<int32_t>(above) * 16;
+  heights->highest = whole + 1 + static_cast<int32_t>(below) * 16;
+  return MICROTIN_QUERY_OK;
+}
 
 }  // namespace microtin
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The constants of the format and the fixed part of its header. format-stream.md explains them.
+// The constants of the format, the fixed part of its header, and which parts this build decodes.
+// format-stream.md explains them.
 #ifndef MICROTIN_SHARED_FORMAT_HPP
 #define MICROTIN_SHARED_FORMAT_HPP
 
 #include <stddef.h>
 #include <stdint.h>
 
+#include "microtin/config.h"
 #include "shared/tables.hpp"
 
 namespace microtin {
@@ -101,6 +103,23 @@ inline uint32_t read_u16(const uint8_t* p) {
 inline uint32_t read_u32(const uint8_t* p) {
   return read_u16(p) | read_u16(p + 2) << 16;
 }
+
+// What this build decodes: the switches of config.h as constants. Code tests them with `if`.
+#if defined(MICROTIN_NO_VOIDS)
+constexpr bool kBuiltVoids = false;
+#else
+constexpr bool kBuiltVoids = true;
+#endif
+
+#if defined(MICROTIN_ONLY_QUICK)
+constexpr bool kBuiltQuick = true, kBuiltBalanced = false, kBuiltDense = false;
+#elif defined(MICROTIN_ONLY_BALANCED)
+constexpr bool kBuiltQuick = false, kBuiltBalanced = true, kBuiltDense = false;
+#else
+constexpr bool kBuiltQuick = true, kBuiltBalanced = true, kBuiltDense = true;
+#endif
+
+constexpr bool kBuiltWeighed = kBuiltBalanced || kBuiltDense;  // codings that weigh places
 
 }  // namespace microtin
 

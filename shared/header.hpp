@@ -4,7 +4,6 @@
 #define MICROTIN_SHARED_HEADER_HPP
 
 #include "microtin/microtin.h"
-#include "shared/build_options.hpp"
 #include "shared/format.hpp"
 #include "shared/lattice.hpp"
 

@@ -3,7 +3,7 @@
 #ifndef MICROTIN_SHARED_MODELS_HPP
 #define MICROTIN_SHARED_MODELS_HPP
 
-#include "shared/build_options.hpp"
+#include "shared/format.hpp"
 #include "shared/height_coding.hpp"
 #include "shared/hit_coding.hpp"
 #include "shared/place_coding.hpp"

@@ -6,7 +6,6 @@
 #ifndef MICROTIN_SHARED_PLACE_CODING_HPP
 #define MICROTIN_SHARED_PLACE_CODING_HPP
 
-#include "shared/build_options.hpp"
 #include "shared/format.hpp"
 #include "shared/height_coding.hpp"
 #include "shared/parity_coding.hpp"
