@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Weights of vertices in the means, from the places of posts in their triangles.
-#include "encoder/fit/balance.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
+
+#include "encoder/fit/height_choice.hpp"
 
 namespace microtin::fit {
 namespace {

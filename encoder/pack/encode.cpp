@@ -13,7 +13,6 @@
 #include "encoder/base/work.hpp"
 #include "encoder/fit/simplify.hpp"
 #include "encoder/pack/kept_tiles.hpp"
-#include "encoder/pack/tile_plan.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/verify/everywhere.hpp"
 

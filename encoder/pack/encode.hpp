@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A raster as the tiles of a pack.
+// A raster as the tiles of a pack, and how large tiles may be. The plan has a source of its own.
 #ifndef MICROTIN_ENCODER_PACK_ENCODE_HPP
 #define MICROTIN_ENCODER_PACK_ENCODE_HPP
 
@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "encoder/base/error.hpp"
+#include "encoder/fit/simplify.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/pack/borders.hpp"
 #include "encoder/pack/tile.hpp"
 #include "encoder/terrain/raster_scan.hpp"
 
@@ -73,6 +75,37 @@ void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take);
 // `tile_size`, if not 0, is tried first.
 void encode_pack(const RasterReader& raster, const PackOptions& options, uint32_t tile_size,
                  const std::function<uint32_t(const PackPlan&)>& begin, const TakeTile& take);
+
+// A raster in tiles of up to `tile_size` lattice steps a side, all of nearly the same size. Throws
+// Error if a pack cannot have as many tiles.
+TileGrid grid_of(const Raster& frame, uint32_t tile_size);
+
+// The grid of tiles for any largest x and y, and for any number of tiles.
+TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_size);
+
+// The largest tile_size found with which no tile has more vertices than it may, as far as
+// the roughest tiles tell: up to 24 of them are simplified, at most five times once some fit,
+// without searching long unless they are a little too large then, and the raster is read as often.
+// Throws Error if there are none.
+uint32_t choose_tile_size(TiledRaster tiled, const PackOptions& options, const Progress& progress);
+
+// How much of the time of a pack that takes, estimated.
+double counting_part(const Raster& frame, const PackOptions& options);
+
+// What to try next if a tile has too many vertices; less than tile_size. Throws Error if there is
+// nothing smaller.
+uint32_t smaller_tile_size(const TileGrid& grid, uint32_t max_vertices, uint32_t vertices);
+
+// Tiles that a device keeps: as many as meet at a corner, unless more are asked for.
+constexpr uint32_t kKeptTiles = 4;
+
+// Vertices of a tile for which a device with this many bytes of RAM decodes one tile and keeps some
+// in compact form, with 16-bit numbers. Narrow: tiles are less than 256 steps wide and high. 0 if
+// there are none.
+uint32_t vertices_for_ram(uint64_t bytes, bool is_narrow, uint32_t kept_tiles = kKeptTiles);
+
+// The bytes that such a device needs, with 32-bit numbers beyond the reach of the others.
+uint64_t pack_ram(uint32_t vertices, uint64_t tile_bytes, uint32_t kept_tiles = kKeptTiles);
 
 }  // namespace microtin::pack
 

@@ -13,8 +13,8 @@
 #include "encoder/base/work.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/fit/simplify.hpp"
+#include "encoder/pack/encode.hpp"
 #include "encoder/pack/point_tiles.hpp"
-#include "encoder/pack/tile_plan.hpp"
 #include "encoder/verify/verify.hpp"
 
 namespace microtin::pack {

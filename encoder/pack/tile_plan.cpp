@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Tries the roughest tiles at some sizes.
-#include "encoder/pack/tile_plan.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +9,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/work.hpp"
+#include "encoder/pack/encode.hpp"
 #include "encoder/pack/tile.hpp"
 #include "encoder/terrain/raster_scan.hpp"
 #include "microtin/compact_pack.h"

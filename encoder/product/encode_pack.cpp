@@ -7,9 +7,9 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/export/queries.hpp"
+#include "encoder/pack/encode.hpp"
 #include "encoder/pack/point_pack.hpp"
 #include "encoder/pack/shard.hpp"
-#include "encoder/pack/tile_plan.hpp"
 #include "encoder/product/true_bound.hpp"
 #include "encoder/terrain/clouds.hpp"
 #include "encoder/verify/everywhere.hpp"

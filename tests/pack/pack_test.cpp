@@ -6,8 +6,8 @@
 #include <map>
 
 #include "encoder/base/error.hpp"
+#include "encoder/pack/encode.hpp"
 #include "encoder/pack/surface.hpp"
-#include "encoder/pack/tile_plan.hpp"
 #include "encoder/terrain/fractal.hpp"
 #include "microtin/compact.h"
 #include "tests/support/border_walk.hpp"
