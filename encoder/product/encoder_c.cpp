@@ -16,8 +16,14 @@
 #define MICROTIN_TEXT_OF(number) #number
 
 using namespace microtin::encoder;
-using namespace microtin::product;
 using microtin::base::Error;
+using microtin::product::copy_decimal;
+using microtin::product::expect;
+using microtin::product::expect_struct;
+using microtin::product::guarded;
+using microtin::product::read_struct;
+using microtin::product::text_of;
+using microtin::product::write_struct;
 
 struct microtin_source {
   SourceTerrain terrain;

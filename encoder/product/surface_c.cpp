@@ -12,7 +12,13 @@
 #include "microtin/surface.hpp"
 
 using namespace microtin::encoder;
-using namespace microtin::product;
+using microtin::product::copy_decimal;
+using microtin::product::expect;
+using microtin::product::expect_struct;
+using microtin::product::guarded;
+using microtin::product::read_struct;
+using microtin::product::text_of;
+using microtin::product::write_struct;
 
 struct microtin_surface {
   Surface surface;
