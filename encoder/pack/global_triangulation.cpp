@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Incremental insertion in rounds along a Hilbert curve, with exact integers.
-#include "encoder/pack/global_triangulation.hpp"
-
 #include <algorithm>
 #include <utility>
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/wide.hpp"
+#include "encoder/pack/point_tiles.hpp"
 #include "encoder/stream/spatial_order.hpp"
 
 namespace microtin::pack {

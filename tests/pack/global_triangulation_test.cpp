@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The triangulation of all points of a pack: the Delaunay triangulation, up to 2^31 steps.
-#include "encoder/pack/global_triangulation.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "encoder/base/error.hpp"
+#include "encoder/pack/point_tiles.hpp"
 #include "encoder/stream/triangulation.hpp"
 #include "tests/support/point_sets.hpp"
 
