@@ -57,10 +57,7 @@ Job encoding_of(const EncodeRequest& request) {
 }
 
 std::vector<std::string> inputs_of(const EncodeRequest& request) {
-  std::vector<std::string> files =
-      files_of(request.source, preparation_of(request.options, request.preparation));
-  if (!request.options.breaklines.empty()) files.push_back(request.options.breaklines);
-  return files;
+  return files_of(request.source, preparation_of(request.options, request.preparation));
 }
 
 bool makes_pack(const Job& job) {
@@ -364,7 +361,7 @@ void run_encode(const EncodeRequest& request) {
   OutputFile out(job.output);  // fails early if it cannot be written
   announce_left_out(job);
   announce_memory(job, inputs);
-  take_breaklines(request.options, job);
+  take_breaklines(request.options, feature_files_of(job.preparation), job);
   deliver(out, job.output, makes_pack(job) ? encode_tiled(job, out) : encode_whole(job, out));
   std::error_code none;
   if (!job.resume.empty()) fs::remove(fs::u8path(job.resume), none);
@@ -373,7 +370,7 @@ void run_encode(const EncodeRequest& request) {
 void run_plan(const EncodeRequest& request, uint32_t shards) {
   Job job = encoding_of(request);
   refuse_overwriting(inputs_of(request), "-");
-  take_breaklines(request.options, job);
+  take_breaklines(request.options, feature_files_of(job.preparation), job);
   const OpenSource source = open_source(job);
   const RasterReader& raster = raster_of(job, pack_source_of(source));
   const std::vector<ShardPlan> plans = with_file_context(job.input, [&] {
@@ -396,7 +393,7 @@ void run_update(const UpdateRequest& request) {
   expect_own_suffix(job.output, true);
   OutputFile out(job.output);
   announce_left_out(job);
-  take_breaklines(request.options, job);
+  take_breaklines(request.options, feature_files_of(job.preparation), job);
   job.preparation.max_error = max_error_of_map(request.old);
   const OpenSource source = open_source(job);
   const auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);

@@ -226,7 +226,7 @@ CLI::Option* add_named(CLI::App& command, const std::string& definition, encoder
 void add_error_map(CLI::App& command, encoder::Options& options, const std::string& elsewhere) {
   add_named(command, "--error-map FILE", options,
             "Take the bound of each post or point from a raster of bounds, of the terrain's grid "
-            "or a coarser one, or from polygons with a property max_error (.geojson); " +
+            "or a coarser one, or from polygons with a property max_error (GeoJSON, or by GDAL); " +
                 elsewhere);
   add_named(command, "--route-edge-error METRES", options,
             "Let the bound grow from that at --route to this at the edges of --route-width")
@@ -236,14 +236,15 @@ void add_error_map(CLI::App& command, encoder::Options& options, const std::stri
 void add_breaklines(CLI::App& command, encoder::Options& options, const std::string& description) {
   add_named(command, "--breaklines FILE", options,
             description +
-                " the lines of this file: GeoJSON (.geojson), or text with x, y and maybe z on "
-                "each line and an empty line between lines");
+                " the lines of this file: GeoJSON, what GDAL reads in builds with it, or text with "
+                "x, y and maybe z on each line and an empty line between lines");
 }
 
 void add_obstacles(CLI::App& command, encoder::Options& options) {
   add_named(command, "--obstacles FILE", options,
-            "Raise the terrain to the obstacles of this GeoJSON file: points, lines and polygons "
-            "with a top or a height above the ground, and a radius in metres. The surface is "
+            "Raise the terrain to the obstacles of this file (GeoJSON, or by GDAL): points, lines "
+            "and polygons with a top or a height above the ground, and a radius in metres. The "
+            "surface is "
             "nowhere below them or the terrain: --never-below and --bound-at everywhere hold");
 }
 
@@ -272,12 +273,12 @@ void add_reference(CLI::App& command, encoder::Options& options) {
 // What lies outside of an area, and far from a route, is left out.
 void add_extent(CLI::App& command, encoder::Options& options) {
   add_named(command, "--area FILE", options,
-            "Keep only what lies in the polygons of this GeoJSON file, or on their borders; all "
-            "posts outside are void");
+            "Keep only what lies in the polygons of this file (GeoJSON, or by GDAL), or on their "
+            "borders; all posts outside are void");
   CLI::Option* const route =
       add_named(command, "--route FILE", options,
-                "Keep only what lies near the lines of this GeoJSON file, and in the area of "
-                "--area; all posts outside are void");
+                "Keep only what lies near the lines of this file (GeoJSON, or by GDAL), and in the "
+                "area of --area; all posts outside are void");
   CLI::Option* const width = add_named(command, "--route-width METRES", options,
                                        "Keep this width around a route, half on each side")
                                  ->default_str("none");

@@ -153,7 +153,6 @@ void run_verify(const VerifyRequest& request) {
   const Preparation preparation = preparation_of(request.options, request.preparation);
   std::vector<std::string> inputs = files_of(request.source, preparation);
   inputs.push_back(input);
-  if (!request.options.breaklines.empty()) inputs.push_back(request.options.breaklines);
   refuse_overwriting(inputs, "-");
   const Document document(input);
   const Original original(document, request.source, preparation);
@@ -165,7 +164,8 @@ void run_verify(const VerifyRequest& request) {
   }
   std::optional<FoundBreaklines> lines;
   if (!request.options.breaklines.empty()) {
-    lines = original.breaklines(read_breaklines(request.options.breaklines));
+    const FeatureFiles files = feature_files_of(preparation);
+    lines = original.breaklines(read_breaklines(request.options.breaklines, files));
     report.emplace_back("breaklines", text_of(*lines, document.metadata().placement));
   }
   add_warnings(report, original);

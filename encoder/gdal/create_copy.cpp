@@ -174,12 +174,43 @@ encoder::Options options_of(char** given) {
   return options;
 }
 
-// A map of bounds that the library does not read by itself is read by GDAL.
-void take_error_map(encoder::Options& options, encoder::SourceTerrain& terrain) {
+bool is_geojson(const std::string& path) {
+  return ends_with(path, ".geojson") || ends_with(path, ".json");
+}
+
+bool is_text_of_lines(const std::string& path) {
+  return ends_with(path, ".csv") || ends_with(path, ".txt") || ends_with(path, ".xyz") ||
+         ends_with(path, ".dat");
+}
+
+void take_features(const std::string& path, GDALDataset& features,
+                   const OGRSpatialReference* system, encoder::SourceTerrain& terrain) {
+  try {
+    terrain.set_features(path, geojson_of(features, system));
+  } catch (const std::runtime_error& error) {
+    refuse(path + ": " + error.what());
+  }
+}
+
+// Files that the library does not read by itself are read by GDAL.
+void take_files(encoder::Options& options, const OGRSpatialReference* system,
+                encoder::SourceTerrain& terrain) {
+  for (const std::string& path :
+       {options.area, options.route, options.obstacles, options.breaklines}) {
+    if (path.empty() || is_geojson(path)) continue;
+    if (path == options.breaklines && is_text_of_lines(path)) continue;
+    const GDALDatasetUniquePtr features(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR));
+    if (!features) refuse(path + ": has no polygons, lines or points that GDAL reads");
+    take_features(path, *features, system, terrain);
+  }
   const std::string path = options.error_map;
-  if (path.empty() || ends_with(path, ".geojson") || ends_with(path, ".json")) return;
-  const GDALDatasetUniquePtr map(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER));
-  if (!map) refuse(path + ": is not a raster of bounds; use one, or GeoJSON");
+  if (path.empty() || is_geojson(path)) return;
+  const GDALDatasetUniquePtr map(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR));
+  if (!map) refuse(path + ": is neither a raster of bounds nor a file of polygons");
+  if (map->GetRasterCount() == 0) {
+    take_features(path, *map, system, terrain);
+    return;
+  }
   terrain.set_error_map(raster_from_cells(*map));
   options.error_map.clear();
 }
@@ -204,7 +235,7 @@ encoder::Report encode(const char* path, GDALDataset& source, char** given,
   posts.items = items_of(source);
   encoder::SourceTerrain terrain(std::move(posts));
   encoder::Options options = options_of(given);
-  take_error_map(options, terrain);
+  take_files(options, source.GetSpatialRef(), terrain);
   if (!ends_with(path, ".mtp")) {
     encoder::Stream stream = encoder::encode_stream(terrain, options, callbacks);
     write_bytes(path, stream.bytes);

@@ -54,6 +54,11 @@ std::unique_ptr<OGRLayer> triangle_layer(const encoder::Surface& surface,
 std::unique_ptr<OGRLayer> line_layer(const encoder::Surface& surface,
                                      const OGRSpatialReference& system);
 
+// The polygons, lines and points of a dataset as GeoJSON, a feature on each line, numbers to all
+// their digits. Curves become lines. `system` is that in which they must be; null: any. Throws
+// std::runtime_error, which does not name the file.
+std::string geojson_of(GDALDataset& features, const OGRSpatialReference* system);
+
 // Encodes the first band: a pack if the name ends in .mtp, else a stream.
 GDALDataset* create_copy(const char* path, GDALDataset* source, int strict, char** options,
                          GDALProgressFunc progress, void* context);

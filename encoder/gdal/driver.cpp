@@ -79,11 +79,11 @@ void GDALRegister_MTIN() {
       "<Option name='PHASES' type='boolean' description='Of streams: note vertices, bytes and "
       "largest error after each phase'/>"
       "<Option name='ERROR_MAP' type='string' description='A bound for each height: a raster of "
-      "bounds, or polygons with a property max_error (.geojson); elsewhere MAX_ERROR holds'/>"
+      "bounds, or polygons with a field max_error; elsewhere MAX_ERROR holds'/>"
       "<Option name='AREA' type='string' description='Keep the heights in the polygons of this "
-      "GeoJSON file'/>"
+      "file'/>"
       "<Option name='ROUTE' type='string' description='Keep the heights near the lines of this "
-      "GeoJSON file; needs ROUTE_WIDTH'/>"
+      "file; needs ROUTE_WIDTH'/>"
       "<Option name='ROUTE_WIDTH' type='string' description='Metres around a route, half on each "
       "side'/>"
       "<Option name='ROUTE_EDGE_ERROR' type='string' description='The bound at the edges of "
@@ -91,7 +91,7 @@ void GDALRegister_MTIN() {
       "<Option name='BREAKLINES' type='string' description='A file of lines along which the "
       "surface has edges; not for packs of points'/>"
       "<Option name='OBSTACLES' type='string' description='Raise the terrain to what "
-      "stands on it, as this GeoJSON file says; needs MAX_ERROR'/>"
+      "stands on it, by this file of points, lines and polygons; needs MAX_ERROR'/>"
       "</CreationOptionList>";
   driver->SetMetadataItem(GDAL_DMD_CREATIONOPTIONLIST, creation_options.c_str());
   driver->pfnIdentify = microtin::gdal::identify;

@@ -8,26 +8,23 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/files/input.hpp"
 #include "encoder/import/corridor.hpp"
-#include "encoder/import/geojson.hpp"
 
 namespace microtin::importing {
 
-void Area::add_polygons(const std::string& path) {
-  const std::string text = read_file(path);
+void Area::add_polygons(const std::string& path, const FeatureFiles& files) {
   const std::size_t before = polygons_.size();
-  for (Feature& feature : import_geojson(path, text)) {
+  for (Feature& feature : files.read(path)) {
     std::move(feature.polygons.begin(), feature.polygons.end(), std::back_inserter(polygons_));
   }
   if (polygons_.size() == before) throw Error(path + ": has no polygon; draw one around the area");
 }
 
-void Area::add_corridors(const std::string& path, Decimal width, Unit unit) {
-  const std::string text = read_file(path);
+void Area::add_corridors(const std::string& path, const FeatureFiles& files, Decimal width,
+                         Unit unit) {
   const std::size_t before = polygons_.size();
   const double half = exact::real(width) / 2;
-  for (const Feature& feature : import_geojson(path, text)) {
+  for (const Feature& feature : files.read(path)) {
     for (const RealLine& line : feature.lines) {
       std::vector<RealRings> corridor =
           with_file_context(path, [&] { return corridor_of(line, half, unit); });

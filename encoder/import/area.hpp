@@ -9,6 +9,7 @@
 
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/units.hpp"
+#include "encoder/import/features.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/polygons.hpp"
@@ -18,12 +19,12 @@ namespace microtin::importing {
 // Polygons in the terrain's own system; borders belong to them.
 class Area {
  public:
-  // Adds those of a GeoJSON file. Throws Error naming the file, also if it has none.
-  void add_polygons(const std::string& path);
+  // Adds those of a file. Throws Error naming the file, also if it has none.
+  void add_polygons(const std::string& path, const FeatureFiles& files);
 
-  // Adds what lies within half of `width` metres of the lines of a GeoJSON file (corridor.hpp).
-  // Throws Error naming the file, also if it has none.
-  void add_corridors(const std::string& path, Decimal width, Unit unit);
+  // Adds what lies within half of `width` metres of the lines of a file (corridor.hpp). Throws
+  // Error naming the file, also if it has none.
+  void add_corridors(const std::string& path, const FeatureFiles& files, Decimal width, Unit unit);
 
   // Makes the posts outside void, or leaves the points outside out.
   void cut(Raster& raster) const;

@@ -9,7 +9,6 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/lattice_map.hpp"
-#include "encoder/files/input.hpp"
 
 namespace microtin::importing {
 namespace {
@@ -57,10 +56,11 @@ Touched hull_of(const std::vector<Touched>& all) {
 
 }  // namespace
 
-BoundMap::BoundMap(const std::string& path, const std::optional<Decimal>& max_error)
+BoundMap::BoundMap(const std::string& path, const FeatureFiles& files,
+                   const std::optional<Decimal>& max_error)
     : name_(path), max_error_(max_error) {
-  if (is_geojson(path)) {
-    read_polygons(path);
+  if (files.has_features(path)) {
+    read_polygons(path, files);
   } else {
     OpenSource source = open_terrain(path);
     auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
@@ -86,9 +86,8 @@ void BoundMap::add(std::vector<Feature> polygons) {
   take_scale();
 }
 
-void BoundMap::read_polygons(const std::string& path) {
-  const std::string text = read_file(path);
-  for (Feature& feature : import_geojson(path, text)) {
+void BoundMap::read_polygons(const std::string& path, const FeatureFiles& files) {
+  for (Feature& feature : files.read(path)) {
     if (feature.has_max_error && feature.polygons.empty()) {
       throw Error(path + ": a property max_error is for polygons, and this is a line or a point");
     }

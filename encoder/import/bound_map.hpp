@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "encoder/import/geojson.hpp"
+#include "encoder/import/features.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/layers.hpp"
 
@@ -17,9 +17,10 @@ namespace microtin::importing {
 // A map of bounds in the unit of the terrain's heights; its places are in the terrain's system.
 class BoundMap {
  public:
-  // Reads polygons from GeoJSON, or opens a raster: both outside of which `max_error` is the bound.
-  // Throws Error naming the file.
-  BoundMap(const std::string& path, const std::optional<Decimal>& max_error);
+  // Reads polygons from a file of features, or opens a raster: both outside of which `max_error` is
+  // the bound. Throws Error naming the file.
+  BoundMap(const std::string& path, const FeatureFiles& files,
+           const std::optional<Decimal>& max_error);
 
   // Takes a raster of bounds. `name` goes into messages.
   BoundMap(const std::string& name, std::unique_ptr<RasterReader> bounds,
@@ -46,7 +47,7 @@ class BoundMap {
   void bound(PointCloud& cloud) const;
 
  private:
-  void read_polygons(const std::string& path);
+  void read_polygons(const std::string& path, const FeatureFiles& files);
   void take_scale();
   int64_t number_of(Decimal bound) const;
   void add_polygons(const Raster& raster, std::vector<int64_t>& numbers) const;

@@ -16,7 +16,6 @@
 #include "encoder/exact/fraction.hpp"
 #include "encoder/files/input.hpp"
 #include "encoder/import/cloud.hpp"
-#include "encoder/import/geojson.hpp"
 #include "encoder/import/text.hpp"
 
 namespace microtin::importing {
@@ -41,13 +40,12 @@ bool names_classes(std::string_view field) {
 }
 
 // A class, which an empty text does not state.
-LineClass class_at(const std::string& file, std::size_t line, std::string_view name) {
+LineClass class_at(const std::string& place, std::string_view name) {
   if (name.empty()) return LineClass::kOther;
   const std::optional<LineClass> kind = line_class_named(lower_case(name));
   if (kind) return *kind;
-  fail_at(
-      file, line,
-      "'" + std::string(name) + "' is not a class of lines; use one of " + names_of_line_classes());
+  throw Error(place + ": '" + std::string(name) + "' is not a class of lines; use one of " +
+              names_of_line_classes());
 }
 
 // Reads text with a position on each line.
@@ -132,7 +130,7 @@ class TextLineReader {
 
   void read_class() {
     if (class_column_ >= fields_.size()) return;
-    const LineClass kind = class_at(name_, number_, fields_[class_column_]);
+    const LineClass kind = class_at(name_ + ':' + std::to_string(number_), fields_[class_column_]);
     if (kind == class_) return;
     end();
     class_ = kind;
@@ -159,10 +157,10 @@ class TextLineReader {
   BreaklineFile lines_;
 };
 
-BreaklineFile lines_of_features(const std::string& path, const std::string& text) {
+BreaklineFile lines_of(std::vector<Feature> features) {
   BreaklineFile all;
-  for (Feature& feature : import_geojson(path, text)) {
-    const LineClass kind = class_at(path, feature.line_of_class, feature.line_class);
+  for (Feature& feature : features) {
+    const LineClass kind = class_at(feature.place_of_class, feature.line_class);
     std::move(feature.lines.begin(), feature.lines.end(), std::back_inserter(all.lines));
     for (RealRings& polygon : feature.polygons) {
       std::move(polygon.begin(), polygon.end(), std::back_inserter(all.lines));
@@ -191,10 +189,10 @@ BreaklineFile without_single_places(BreaklineFile&& all) {
 
 }  // namespace
 
-BreaklineFile read_breaklines(const std::string& path) {
-  const std::string text = read_file(path);
-  BreaklineFile all = without_single_places(is_geojson(path) ? lines_of_features(path, text)
-                                                             : TextLineReader(path).read(text));
+BreaklineFile read_breaklines(const std::string& path, const FeatureFiles& files) {
+  const bool is_text = !files.has_features(path) && !files.is_for_gdal(path);
+  BreaklineFile all = without_single_places(is_text ? TextLineReader(path).read(read_file(path))
+                                                    : lines_of(files.read(path)));
   const std::vector<RealLine>& lines = all.lines;
   if (lines.empty()) throw Error(path + ": has no line");
   for (std::size_t i = 0; i < lines.size(); ++i) {

@@ -11,7 +11,6 @@
 #include "encoder/base/error.hpp"
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/wide.hpp"
-#include "encoder/files/input.hpp"
 #include "encoder/terrain/degrees.hpp"
 
 namespace microtin::importing {
@@ -112,13 +111,13 @@ Decimal bound_at(Decimal least, Decimal edge, int step) {
 
 }  // namespace
 
-std::vector<Feature> route_bounds(const std::string& path, Decimal width, Decimal least,
-                                  Decimal edge, Unit unit) {
+std::vector<Feature> route_bounds(const std::string& path, const FeatureFiles& files, Decimal width,
+                                  Decimal least, Decimal edge, Unit unit) {
   if (!(least <= edge)) {
     throw Error(parameter("route_edge_error") + ' ' + to_string(edge) + " is less than " +
                 parameter("max_error") + ' ' + to_string(least) + "; use a larger one");
   }
-  const std::vector<Feature> lines = import_geojson(path, read_file(path));
+  const std::vector<Feature> lines = files.read(path);
   std::vector<Feature> bounds(kSteps);
   for (int step = 0; step < kSteps; ++step) {
     Feature& feature = bounds[static_cast<std::size_t>(step)];

@@ -8,7 +8,7 @@
 
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/units.hpp"
-#include "encoder/import/geojson.hpp"
+#include "encoder/import/features.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/polygons.hpp"
 
@@ -22,11 +22,11 @@ namespace microtin::importing {
 // latitude + vertices) polygons.
 std::vector<RealRings> corridor_of(const RealLine& line, double metres, Unit unit);
 
-// Polygons around the lines of a GeoJSON file, each with a bound: from `least` at the lines to
+// Polygons around the lines of a file, each with a bound: from `least` at the lines to
 // `edge` at half of `width` metres from them, in eight steps that are within the straight line
 // between the two. Throws Error naming the file if it has no line, or if `edge` is less.
-std::vector<Feature> route_bounds(const std::string& path, Decimal width, Decimal least,
-                                  Decimal edge, Unit unit);
+std::vector<Feature> route_bounds(const std::string& path, const FeatureFiles& files, Decimal width,
+                                  Decimal least, Decimal edge, Unit unit);
 
 }  // namespace microtin::importing
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Whatever GDAL opens; part of builds with MICROTIN_WITH_GDAL only.
 #include <cpl_error.h>
-#include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
@@ -9,14 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
-#include <memory>
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/text.hpp"
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/import/crs.hpp"
+#include "encoder/import/gdal_dataset.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/raster.hpp"
 #include "encoder/import/reference.hpp"
@@ -25,65 +23,8 @@
 namespace microtin::importing {
 namespace {
 
-struct Close {
-  void operator()(void* dataset) const { GDALClose(dataset); }
-};
-
-using Dataset = std::unique_ptr<void, Close>;
-
-// Drivers whose files hold their rasters themselves. Others read whatever files theirs name (VRT,
-// labels with a raster apart), the network or memory.
-constexpr const char* kDrivers[] = {"GTiff", "AAIGrid", "GRASSASCIIGrid", "SRTMHGT", "USGSDEM",
-                                    "DTED",  "AIG",     "EHdr",           "BT",      "GSAG",
-                                    "GSBG",  "GS7BG",   "GRIB",           "netCDF",  "XYZ"};
-
-bool is_allowed(const std::string& driver, Indirect indirect) {
-  if (driver == "VRT") return indirect == Indirect::kAllowed;
-  return std::find(std::begin(kDrivers), std::end(kDrivers), driver) != std::end(kDrivers);
-}
-
-// Drivers that are not allowed are gone altogether: those that are open other files by name.
-void register_drivers(Indirect indirect) {
-  GDALAllRegister();
-  for (int i = GDALGetDriverCount(); i-- > 0;) {
-    const GDALDriverH driver = GDALGetDriver(i);
-    if (!is_allowed(GDALGetDriverShortName(driver), indirect)) GDALDeregisterDriver(driver);
-  }
-}
-
-// Names that GDAL does not give to the file system, also within those of parts of a file.
-bool is_virtual(const std::string& path) {
-  const size_t at = path.find("/vsi");
-  return at == 0 || (at != path.npos && (path[at - 1] == ':' || path[at - 1] == '"'));
-}
-
-// GDAL's own words, which begin with the file's name in one way or another. It may know formats
-// whose drivers are gone.
-std::string reason(const std::string& path) {
-  std::string text = CPLGetLastErrorMsg();
-  for (const std::string& name : {path + ": ", '`' + path + "' ", '\'' + path + "' "}) {
-    if (text.compare(0, name.size(), name) == 0) text.erase(0, name.size());
-  }
-  if (text.find("not recognized as") == text.npos) return text;
-  return text + " convert other formats with \"gdal_translate IN OUT.tif\"";
-}
-
-Dataset open(const std::string& path, Indirect indirect) {
-  register_drivers(indirect);
-  CPLSetErrorHandler(CPLQuietErrorHandler);
-  if (indirect == Indirect::kRefused && is_virtual(path)) {
-    throw Error("is a virtual file of GDAL's, which is read only with " + parameter("allow_vrt"));
-  }
-  Dataset dataset(GDALOpenEx(path.c_str(),
-                             GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
-                             nullptr, nullptr));
-  if (!dataset) {
-    const bool is_vrt = suffix_of(path) == ".vrt";
-    if (is_vrt && indirect == Indirect::kRefused) {
-      throw Error("names other files, which are read only with " + parameter("allow_vrt"));
-    }
-    throw Error("GDAL cannot open it: " + reason(path));
-  }
+GdalDataset open(const std::string& path, Indirect indirect) {
+  GdalDataset dataset = open_gdal_dataset(path, indirect, GdalKind::kRaster);
   if (GDALGetRasterCount(dataset.get()) == 0)
     throw Error("has no raster band; name a file of heights");
   return dataset;
@@ -231,17 +172,9 @@ class BandReader {
   NoData no_data_;
 };
 
-std::vector<std::string> files_of(GDALDatasetH dataset) {
-  std::vector<std::string> files;
-  char** const list = GDALGetFileList(dataset);
-  for (char** file = list; file != nullptr && *file != nullptr; ++file) files.emplace_back(*file);
-  CSLDestroy(list);
-  return files;
-}
-
-uint64_t bytes_of(GDALDatasetH dataset) {
+uint64_t bytes_of(const GdalDataset& dataset) {
   uint64_t bytes = 0;
-  for (const std::string& file : files_of(dataset)) {
+  for (const std::string& file : files_of_dataset(dataset)) {
     VSIStatBufL status;
     if (VSIStatL(file.c_str(), &status) == 0) bytes += static_cast<uint64_t>(status.st_size);
   }
@@ -249,7 +182,7 @@ uint64_t bytes_of(GDALDatasetH dataset) {
 }
 
 // GDAL reads a block at a time, which a header may claim to be larger than the raster.
-void expect_held(GDALDatasetH dataset, GDALRasterBandH band) {
+void expect_held(const GdalDataset& dataset, GDALRasterBandH band) {
   const auto columns = static_cast<uint64_t>(GDALGetRasterBandXSize(band));
   const auto rows = static_cast<uint64_t>(GDALGetRasterBandYSize(band));
   const uint64_t bytes = bytes_of(dataset);
@@ -266,9 +199,9 @@ void expect_held(GDALDatasetH dataset, GDALRasterBandH band) {
 }
 
 Raster read(const std::string& path, Indirect indirect, uint32_t number) {
-  const Dataset dataset = open(path, indirect);
+  const GdalDataset dataset = open(path, indirect);
   const GDALRasterBandH band = band_of(dataset.get(), number);
-  expect_held(dataset.get(), band);
+  expect_held(dataset, band);
   BandReader reader(band);
   Raster raster;
   raster.width = static_cast<uint32_t>(reader.width());
@@ -295,13 +228,13 @@ Raster import_gdal(const std::string& path, Indirect indirect, uint32_t band) {
 }
 
 std::vector<std::string> gdal_files(const std::string& path, Indirect indirect) {
-  Dataset dataset;
+  GdalDataset dataset;
   try {
     dataset = open(path, indirect);
   } catch (const Error&) {  // reading it says why
     return {path};
   }
-  return files_of(dataset.get());
+  return files_of_dataset(dataset);
 }
 
 }  // namespace microtin::importing

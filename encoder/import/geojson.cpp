@@ -213,7 +213,7 @@ class FeatureReader {
   void read_class(const Value* value) {
     if (value == nullptr || value->kind != Value::kText) return;
     features_.back().line_class = std::string(value->text);
-    features_.back().line_of_class = value->line;
+    features_.back().place_of_class = name_ + ':' + std::to_string(value->line);
   }
 
   void read_geometry(const Value& value) {

@@ -3,7 +3,6 @@
 #ifndef MICROTIN_ENCODER_IMPORT_GEOJSON_HPP
 #define MICROTIN_ENCODER_IMPORT_GEOJSON_HPP
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,9 +24,8 @@ struct Feature {
   // Properties of obstacles: a height above the zero of heights, or from 0 up above the ground; and
   // metres from 0 up around the geometry.
   std::optional<Decimal> top, height, radius;
-  // The property class of lines: a text, and the line of the file where it stands.
-  std::string line_class;
-  std::size_t line_of_class = 0;
+  // The property class of lines: a text, and the place where it stands, "a.geojson:3".
+  std::string line_class, place_of_class;
 };
 
 // Reads the features of a GeoJSON text: collections, features and geometries. Coordinates are

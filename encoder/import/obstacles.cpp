@@ -12,7 +12,6 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/wide.hpp"
-#include "encoder/files/input.hpp"
 #include "encoder/import/corridor.hpp"
 #include "encoder/terrain/own_bounds.hpp"
 #include "encoder/terrain/polygons.hpp"
@@ -362,8 +361,8 @@ class RaisedRaster : public RasterReader {
 
 }  // namespace
 
-Obstacles::Obstacles(const std::string& path)
-    : path_(path), features_(import_geojson(path, read_file(path))) {
+Obstacles::Obstacles(const std::string& path, const FeatureFiles& files)
+    : path_(path), features_(files.read(path)) {
   for (const Feature& obstacle : features_) {
     if (obstacle.top.has_value() == obstacle.height.has_value()) {
       throw Error(path +

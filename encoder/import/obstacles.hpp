@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "encoder/exact/decimal.hpp"
-#include "encoder/import/geojson.hpp"
+#include "encoder/import/features.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/raster_reader.hpp"
 
@@ -17,9 +17,9 @@ namespace microtin::importing {
 
 class Obstacles {
  public:
-  // Reads a GeoJSON file: points, lines and polygons with a `top` above the zero of the terrain's
+  // Reads a file: points, lines and polygons with a `top` above the zero of the terrain's
   // heights, or a `height` above the ground, and a `radius` in metres. Throws Error naming it.
-  explicit Obstacles(const std::string& path);
+  Obstacles(const std::string& path, const FeatureFiles& files);
 
   // A raster whose posts are raised when it is read: all those of each cell that an obstacle
   // touches to its top at least; void posts stay void. `max_error` is the bound of posts that have

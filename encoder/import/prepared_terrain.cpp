@@ -219,15 +219,37 @@ Raster whole_of(const std::string& path, const RasterReader& raster) {
 
 }  // namespace
 
+FeatureFiles feature_files_of(const Preparation& preparation) {
+  return FeatureFiles(preparation.indirect, preparation.texts);
+}
+
+namespace {
+
+// Whether the map of bounds is a raster.
+bool has_map_of_cells(const Preparation& preparation) {
+  return !preparation.error_map.empty() &&
+         !feature_files_of(preparation).has_features(preparation.error_map);
+}
+
+std::vector<std::string> feature_names_of(const Preparation& preparation) {
+  std::vector<std::string> names;
+  for (const std::string& name :
+       {preparation.area, preparation.route, preparation.obstacles, preparation.breaklines,
+        has_map_of_cells(preparation) ? std::string() : preparation.error_map}) {
+    if (!name.empty()) names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace
+
 std::vector<std::string> files_of(const std::string& path, const Preparation& preparation) {
   std::vector<std::string> files;
   std::vector<std::string> names = preparation.water_mask.empty()
                                        ? std::vector<std::string>()
                                        : std::vector<std::string>{preparation.water_mask};
-  for (const std::string& file : {preparation.cells, preparation.area, preparation.route,
-                                  preparation.error_map, preparation.obstacles}) {
-    if (!file.empty()) names.push_back(file);
-  }
+  if (!preparation.cells.empty()) names.push_back(preparation.cells);
+  if (has_map_of_cells(preparation)) names.push_back(preparation.error_map);
   if (!path.empty()) {
     const std::vector<std::string> parts = parts_of(path, preparation);
     names.insert(names.end(), parts.begin(), parts.end());
@@ -237,7 +259,18 @@ std::vector<std::string> files_of(const std::string& path, const Preparation& pr
       files.push_back(std::move(file));
     }
   }
+  for (const std::string& name : feature_names_of(preparation)) {
+    for (std::string& file : feature_files_of(preparation).files_of(name)) {
+      files.push_back(std::move(file));
+    }
+  }
   return files;
+}
+
+void expect_systems(const Preparation& preparation, const Reference& terrain) {
+  for (const std::string& name : feature_names_of(preparation)) {
+    feature_files_of(preparation).expect_system(name, terrain);
+  }
 }
 
 namespace {
@@ -291,10 +324,12 @@ bool has_area(const Preparation& preparation) {
 }
 
 Area area_of(const Preparation& preparation, const Reference& reference) {
+  const FeatureFiles files = feature_files_of(preparation);
   Area area;
-  if (!preparation.area.empty()) area.add_polygons(preparation.area);
+  if (!preparation.area.empty()) area.add_polygons(preparation.area, files);
   if (!preparation.route.empty() && preparation.route_width) {
-    area.add_corridors(preparation.route, *preparation.route_width, reference.horizontal_unit);
+    area.add_corridors(preparation.route, files, *preparation.route_width,
+                       reference.horizontal_unit);
   }
   return area;
 }
@@ -303,14 +338,15 @@ Area area_of(const Preparation& preparation, const Reference& reference) {
 std::optional<BoundMap> bound_map_of(const Preparation& preparation, Unit unit,
                                      std::optional<BoundMap> map = std::nullopt) {
   const std::optional<Decimal>&least = preparation.max_error, &edge = preparation.route_edge_error;
-  if (!map && !preparation.error_map.empty()) map.emplace(preparation.error_map, least);
+  const FeatureFiles files = feature_files_of(preparation);
+  if (!map && !preparation.error_map.empty()) map.emplace(preparation.error_map, files, least);
   if (!edge) return map;
   if (preparation.route.empty() || !preparation.route_width || !least) {
     throw Error(parameter("route_edge_error") + " needs " + parameter("route") + " and " +
                 parameter("max_error"));
   }
   std::vector<Feature> bounds =
-      route_bounds(preparation.route, *preparation.route_width, *least, *edge, unit);
+      route_bounds(preparation.route, files, *preparation.route_width, *least, *edge, unit);
   if (map) {
     map->add(std::move(bounds));
   } else {
@@ -330,7 +366,7 @@ void raise_to_obstacles(Source& source, const Preparation& preparation) {
   const std::string selection = raster->selection;
   Mended mended = raster->mended;
   const auto raised =
-      Obstacles(preparation.obstacles)
+      Obstacles(preparation.obstacles, feature_files_of(preparation))
           .raised(std::make_unique<RasterInMemory>(std::move(*raster)), preparation.max_error);
   const Raster& frame = raised->frame();
   *raster = raised->read({0, 0, frame.width, frame.height});
@@ -342,6 +378,7 @@ void raise_to_obstacles(Source& source, const Preparation& preparation) {
 }  // namespace
 
 void shape(Source& source, const Preparation& preparation, std::optional<BoundMap> map) {
+  expect_systems(preparation, terrain::reference_of(source));
   if (has_area(preparation)) {
     const Area area = area_of(preparation, terrain::reference_of(source));
     std::visit([&](auto& one) { area.cut(one); }, source);
@@ -359,6 +396,11 @@ Source prepared_terrain(const std::string& path, const Preparation& preparation,
 }
 
 namespace {
+
+const Reference& reference_of(const OpenSource& source) {
+  if (const auto* const cloud = std::get_if<PointCloud>(&source)) return cloud->reference;
+  return std::get<std::unique_ptr<RasterReader>>(source)->frame().reference;
+}
 
 void cut_to_area(OpenSource& source, const Preparation& preparation) {
   if (auto* const cloud = std::get_if<PointCloud>(&source)) {
@@ -385,7 +427,8 @@ void add_bounds(OpenSource& source, const Preparation& preparation, std::optiona
 void raise_to_obstacles(OpenSource& source, const Preparation& preparation) {
   auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
   if (raster == nullptr) refuse_obstacles_of_points(preparation);
-  *raster = Obstacles(preparation.obstacles).raised(std::move(*raster), preparation.max_error);
+  *raster = Obstacles(preparation.obstacles, feature_files_of(preparation))
+                .raised(std::move(*raster), preparation.max_error);
 }
 
 }  // namespace
@@ -393,6 +436,7 @@ void raise_to_obstacles(OpenSource& source, const Preparation& preparation) {
 OpenSource prepared_source(const std::string& path, const Preparation& preparation,
                            std::optional<BoundMap> map) {
   OpenSource source = prepared(path, parts_of(path, preparation), preparation);
+  expect_systems(preparation, reference_of(source));
   if (has_area(preparation)) cut_to_area(source, preparation);
   add_bounds(source, preparation, std::move(map));
   if (!preparation.obstacles.empty()) raise_to_obstacles(source, preparation);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "encoder/import/bound_map.hpp"
+#include "encoder/import/features.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/degrees.hpp"
@@ -47,14 +48,21 @@ struct Preparation {
   std::optional<Decimal> route_edge_error;  // the bound there; max_error is that at the lines
   std::string error_map;                    // the file of posts' own bounds; empty: none
   std::string obstacles;                    // the file of what raises the terrain; empty: none
+  std::string breaklines;                   // the file of lines, which are read elsewhere
+  std::shared_ptr<const FileTexts> texts;   // that stand for such files; null: there are none
   std::optional<Decimal> max_error;         // the bound where that says nothing
   // Settled with each file's; nothing: units and systems are left alone, where no heights are used.
   std::optional<Reference> asked = Reference{};
 };
 
+// How the files of features are read.
+FeatureFiles feature_files_of(const Preparation& preparation);
+
+// Throws Error naming the file if one of the files of features states another horizontal system.
+void expect_systems(const Preparation& preparation, const Reference& terrain);
+
 // All files that a terrain is read from, those of a folder and a list too; none for one without a
-// name. Throws
-// Error as preparing does.
+// name. Throws Error as preparing does.
 std::vector<std::string> files_of(const std::string& path, const Preparation& preparation);
 
 // Cuts a terrain to the area, gives its samples the bounds of the map, and raises it to the

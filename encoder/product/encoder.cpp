@@ -28,6 +28,7 @@ struct SourceTerrain::Content {
   std::shared_ptr<const terrain::Source> source;            // null: what is in the files
   std::shared_ptr<const terrain::Raster> bounds = nullptr;  // of its posts; null: one for all
   std::vector<std::string> files = {};
+  std::shared_ptr<const importing::FileTexts> texts = nullptr;  // null: there are none
 };
 
 namespace {
@@ -137,9 +138,21 @@ void check_pack_options(const Options& options, bool has_map) {
          base::parameter("never_below") + " needs " + base::parameter("max_error"));
 }
 
-product::EncodeOptions options_of(const Options& options) {
+// How files are read.
+importing::Preparation preparation_of(const SourceTerrain::Content& content,
+                                      const Options& options) {
+  importing::Preparation preparation = product::preparation_of(options);
+  if (!content.files.empty()) {
+    preparation.more_files.assign(content.files.begin() + 1, content.files.end());
+  }
+  preparation.texts = content.texts;
+  return preparation;
+}
+
+product::EncodeOptions options_of(const SourceTerrain& terrain, const Options& options) {
   product::EncodeOptions all = product::options_of(options);
-  product::take_breaklines(options, all);
+  const importing::Preparation preparation = preparation_of(terrain.content(), options);
+  product::take_breaklines(options, importing::feature_files_of(preparation), all);
   if (!options.obstacles.empty()) product::imply_obstacles(all);
   return all;
 }
@@ -152,16 +165,8 @@ std::optional<importing::BoundMap> own_map(const SourceTerrain::Content& content
                              std::make_unique<KeptRaster>(*content.bounds), preparation.max_error);
 }
 
-// How files are read.
-importing::Preparation preparation_of(const std::vector<std::string>& files,
-                                      const Options& options) {
-  importing::Preparation preparation = product::preparation_of(options);
-  preparation.more_files.assign(files.begin() + 1, files.end());
-  return preparation;
-}
-
 terrain::Source read_files(const SourceTerrain::Content& content, const Options& options) {
-  const importing::Preparation preparation = preparation_of(content.files, options);
+  const importing::Preparation preparation = preparation_of(content, options);
   return importing::prepared_terrain(content.files[0], preparation, own_map(content, preparation));
 }
 
@@ -175,7 +180,7 @@ class SettledTerrain {
       reference_ = terrain::reference_of(*changed_);
       return;
     }
-    const importing::Preparation preparation = product::preparation_of(options);
+    const importing::Preparation preparation = preparation_of(content, options);
     const importing::SettledReference settled =
         importing::settle(terrain::reference_of(*source_), *preparation.asked);
     reference_ = settled.reference;
@@ -183,7 +188,10 @@ class SettledTerrain {
     const bool has_files = !options.error_map.empty() || !options.area.empty() ||
                            !options.route.empty() || !options.obstacles.empty();
     std::optional<importing::BoundMap> map = own_map(content, preparation);
-    if (is_plain && !has_files && !map) return;
+    if (is_plain && !has_files && !map) {
+      importing::expect_systems(preparation, reference_);
+      return;
+    }
     changed_ = *source_;
     if (!is_plain) importing::convert(*changed_, settled);
     importing::shape(*changed_, preparation, std::move(map));
@@ -203,7 +211,7 @@ class TiledTerrain {
  public:
   TiledTerrain(const SourceTerrain::Content& content, const Options& options) {
     if (content.source == nullptr) {
-      const importing::Preparation preparation = preparation_of(content.files, options);
+      const importing::Preparation preparation = preparation_of(content, options);
       opened_ =
           importing::prepared_source(content.files[0], preparation, own_map(content, preparation));
       source_ = product::pack_source_of(opened_);
@@ -362,7 +370,7 @@ void add_warnings(Report& report, const TiledTerrain& terrain, const product::So
 // The options of a pack, or of a shard, of a terrain.
 product::EncodeOptions pack_options_of(const SourceTerrain& terrain, const Options& options) {
   check_pack_options(options, has_map(terrain, options));
-  return options_of(options);
+  return options_of(terrain, options);
 }
 
 }  // namespace
@@ -398,13 +406,24 @@ SourceTerrain SourceTerrain::from_files(const std::vector<std::string>& paths) {
 
 void SourceTerrain::set_error_map(RasterData bounds) {
   auto map = std::make_shared<terrain::Raster>(raster_of(std::move(bounds)));
-  content_ = std::make_shared<Content>(Content{content_->source, std::move(map), content_->files});
+  Content changed = *content_;
+  changed.bounds = std::move(map);
+  content_ = std::make_shared<Content>(std::move(changed));
+}
+
+void SourceTerrain::set_features(const std::string& path, std::string geojson) {
+  Content changed = *content_;
+  auto texts =
+      changed.texts != nullptr ? importing::FileTexts(*changed.texts) : importing::FileTexts();
+  texts[path] = std::move(geojson);
+  changed.texts = std::make_shared<importing::FileTexts>(std::move(texts));
+  content_ = std::make_shared<Content>(std::move(changed));
 }
 
 Stream encode_stream(const SourceTerrain& terrain, const Options& options,
                      const Callbacks& callbacks) {
   check_stream_options(options, has_map(terrain, options));
-  product::EncodeOptions all = options_of(options);
+  product::EncodeOptions all = options_of(terrain, options);
   const SettledTerrain settled(terrain.content(), options);
   all.reference = settled.reference();
   product::EncodedStream encoded =

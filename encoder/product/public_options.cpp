@@ -125,9 +125,10 @@ EncodeOptions options_of(const encoder::Options& options) {
   return all;
 }
 
-void take_breaklines(const encoder::Options& options, EncodeOptions& all) {
+void take_breaklines(const encoder::Options& options, const FeatureFiles& files,
+                     EncodeOptions& all) {
   if (options.breaklines.empty()) return;
-  BreaklineFile read = read_breaklines(options.breaklines);
+  BreaklineFile read = read_breaklines(options.breaklines, files);
   all.lattice.breaklines = std::move(read.lines);
   all.lattice.line_classes = std::move(read.classes);
 }
@@ -146,6 +147,7 @@ Preparation preparation_of(const encoder::Options& options, Preparation preparat
   preparation.route_width = decimal_of(options.route_width);
   preparation.route_edge_error = decimal_of(options.route_edge_error);
   preparation.obstacles = options.obstacles;
+  preparation.breaklines = options.breaklines;
   preparation.asked = asked_of(options);
   return preparation;
 }

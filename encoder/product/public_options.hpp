@@ -21,7 +21,8 @@ namespace microtin::product {
 EncodeOptions options_of(const encoder::Options& options);
 
 // Reads the file of breaklines, if there is one. Throws Error naming the file.
-void take_breaklines(const encoder::Options& options, EncodeOptions& all);
+void take_breaklines(const encoder::Options& options, const FeatureFiles& files,
+                     EncodeOptions& all);
 
 // The preparation of the terrain with the options that shape it, and with its units and systems.
 // The values are those that options_of accepts. Throws Error if they contradict.

@@ -200,6 +200,72 @@ class Driver(unittest.TestCase):
                 with self.subTest(suffix + " " + name):
                     self.assertEqual(len({without, *made}), 1 + len(made))
 
+    def made_with(self, option, path, **others):
+        """The bytes of a stream of part of the hills."""
+        small, made = self.path("part.tif"), self.path("part.mtin")
+        gdal.Translate(small, self.path("hills.tif"), srcWin=[0, 100, 160, 150])
+        options = dict({"MAX_ERROR": "2", option: path}, **others)
+        gdal.Translate(made, small, format="MTIN", creationOptions=[f"{k}={v}" for k, v in options.items()])
+        with open(made, "rb") as file:
+            return file.read()
+
+    def test_files_of_options_are_all_that_gdal_reads(self):
+        """GeoPackages and shapefiles make the bytes that GeoJSON makes."""
+        west, north = 600000, 4999000
+        ring = [[west, north], [west + 900.25, north], [west + 900, north - 900], [west, north]]
+        line = [[west + 105, north - 105, 145.5], [west + 605, north - 305, 190], [west + 905, north - 505.5, 210]]
+        files = {
+            "AREA": self.feature("MultiPolygon", [[ring]]),
+            "ROUTE": self.feature("MultiLineString", [line]),
+            "OBSTACLES": self.feature("Point", [west + 500, north - 500], height=80.25, radius=20),
+            "ERROR_MAP": self.feature("Polygon", [ring], max_error=0.1),
+            "BREAKLINES": self.feature("LineString", line, **{"class": "dam", "id": 1, "top": 5}),
+        }
+        for option, path in files.items():
+            others = {"ROUTE_WIDTH": "500"} if option == "ROUTE" else {"MAX_ERROR": "60"} if option == "BREAKLINES" else {}
+            expected = self.made_with(option, path, **others)
+            for kind in (".gpkg", ".shp"):
+                name = self.path(option.lower() + kind)
+                run("ogr2ogr", name, path, "-a_srs", "EPSG:25832")
+                with self.subTest(option + kind):
+                    self.assertEqual(self.made_with(option, name, **others), expected)
+                    with self.assertRaisesRegex(RuntimeError, "is not the terrain's .ETRS89 / UTM zone 32N.: transform"):
+                        run("ogr2ogr", self.path("other" + kind), path, "-a_srs", "EPSG:32633", "-overwrite")
+                        self.made_with(option, self.path("other" + kind), **others)
+
+    def test_files_of_options_that_cannot_be_read_are_named(self):
+        def geometries(name, *texts, field=None):
+            source = ogr.GetDriverByName("GPKG").CreateDataSource(self.path(name))
+            layer = source.CreateLayer("one", geom_type=ogr.wkbUnknown)
+            if field is not None:
+                layer.CreateField(ogr.FieldDefn(field[0], ogr.OFTString))
+            for text in texts:
+                feature = ogr.Feature(layer.GetLayerDefn())
+                if field is not None:
+                    feature.SetField(*field)
+                feature.SetGeometry(ogr.CreateGeometryFromWkt(text))
+                layer.CreateFeature(feature)
+            layer = source = None  # which writes the file
+            return self.path(name)
+
+        line = "LINESTRING (600105 4998895, 600905 4998495)"
+        rows = (
+            ("AREA", geometries("line.gpkg", line), "line.gpkg: has no polygon; draw one"),
+            ("AREA", geometries("tin.gpkg", "TIN (((0 0, 1 0, 1 1, 0 0)))"), "tin.gpkg: has a TIN: convert it"),
+            ("AREA", self.path("nosuch.gpkg"), "nosuch.gpkg: has no polygons, lines or points that GDAL reads"),
+            ("ERROR_MAP", self.path("nosuch.gpkg"), "nosuch.gpkg: is neither a raster of bounds nor a file of"),
+            ("BREAKLINES", geometries("class.gpkg", line, line, field=("class", "wal")), "class.gpkg:1: 'wal' is not a class"),
+            ("OBSTACLES", geometries("top.gpkg", "POINT (9 9)", field=("top", "tall")), "top.gpkg:1: top is not a number"),
+        )
+        for option, path, words in rows:
+            with self.subTest(words), self.assertRaisesRegex(RuntimeError, words):
+                self.made_with(option, path)
+        curve = geometries("curve.gpkg", "CIRCULARSTRING (600105 4998895, 600505 4998795, 600905 4998495)", "LINESTRING EMPTY")
+        self.assertNotEqual(self.made_with("BREAKLINES", curve), self.made_with("MAX_ERROR", "2"))
+        run("ogr2ogr", "-update", self.path("line.gpkg"), self.path("line.gpkg"), "-nln", "two")
+        with self.assertRaisesRegex(RuntimeError, "line.gpkg: has 2 layers with geometries .one, two.: copy one"):
+            self.made_with("BREAKLINES", self.path("line.gpkg"))
+
     def test_the_metadata_state_what_the_header_promises(self):
         small = self.path("promise.tif")
         gdal.Translate(small, self.path("hills.tif"), srcWin=[0, 100, 160, 150])
@@ -348,7 +414,7 @@ class Driver(unittest.TestCase):
             json.dump({"type": "FeatureCollection", "features": features}, file)
         options = ["MAX_ERROR=40", "BREAKLINES=" + decoded]
         gdal.Translate(path, self.path("hills.tif"), format="MTIN", creationOptions=options)
-        run(TOOL, "decode", path, "-o", decoded, "--force")
+        run(TOOL, "decode", path, "-o", decoded)
         dataset = gdal.OpenEx(path, gdal.OF_VECTOR)
         names = [dataset.GetLayer(i).GetName() for i in range(dataset.GetLayerCount())]
         self.assertEqual(names, ["vertices", "triangles", "lines"])

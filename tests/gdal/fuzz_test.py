@@ -76,17 +76,29 @@ def read_all(counts):
             feature.GetGeometryRef().GetEnvelope3D()
 
 
-def pack(golden):
-    """A pack of what a golden stream shows."""
+def encoded(suffix, *options):
+    """A stream or a pack of a rough plane."""
     source = gdal.GetDriverByName("MEM").Create("", 60, 50, 1, gdal.GDT_Int16)
     source.SetGeoTransform((0, 1, 0, 50, 0, -1))
     row, column = numpy.mgrid[0:50, 0:60]
     source.GetRasterBand(1).WriteArray((row * column % 97).astype(numpy.int16))
-    path = f"/tmp/microtin-fuzz-{os.getpid()}.mtp"
-    gdal.GetDriverByName("MTIN").CreateCopy(path, source, options=["MAX_ERROR=9", "TILE_VERTICES=200"])
+    path = f"/tmp/microtin-fuzz-{os.getpid()}{suffix}"
+    gdal.GetDriverByName("MTIN").CreateCopy(path, source, options=["MAX_ERROR=9", *options])
     with open(path, "rb") as file:
         data = file.read()
     os.remove(path)
+    return data
+
+
+def with_lines():
+    """A stream that has a layer of lines."""
+    path = f"/tmp/microtin-fuzz-{os.getpid()}.csv"
+    with open(path, "w") as file:
+        file.write("5 5\n50 40\n\n10 40\n40 10\n")
+    data = encoded(".mtin", "BREAKLINES=" + path)
+    os.remove(path)
+    gdal.FileFromMemBuffer(PATH, data)
+    assert gdal.OpenEx(PATH, gdal.OF_VECTOR).GetLayerByName("lines") is not None
     return data
 
 
@@ -95,7 +107,7 @@ def main():
     inputs = [open(path, "rb").read() for path in sorted(glob.glob(f"{golden}/*.mtin"))]
     for data in inputs:
         assert with_check(bytearray(data), header_end(data)) == data, "the header is not where it is thought to be"
-    inputs.append(pack(golden))
+    inputs += [with_lines(), encoded(".mtp", "TILE_VERTICES=200")]
     refused = [open(path, "rb").read() for path in sorted(glob.glob(f"{golden}/refused/*.mtin"))]
     gdal.PushErrorHandler("CPLQuietErrorHandler")
     chance = random.Random(20)

@@ -196,6 +196,34 @@ TEST_CASE("files: bounds of posts and the options that are files hold for all of
   CHECK(library::encode_pack(terrain, wanted, files.path("t.mtp")).samples == 99);
 }
 
+TEST_CASE("files: texts of GeoJSON stand for files that options name") {
+  const Files files;
+  const std::string polygon =
+      R"({"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]]]})";
+  const std::string line = R"({"type": "LineString", "coordinates": [[0, 0], [20, 15]]})";
+  auto terrain = library::SourceTerrain::from_files({files.path("cells")});
+  const library::SourceTerrain before = terrain;
+  terrain.set_features("area.gpkg", polygon);
+  terrain.set_features("lines.shp", line);
+  terrain.set_features("lines.shp", line);  // again
+  library::Options wanted = options();
+  wanted.max_error = "9";
+  wanted.area = "area.gpkg";
+  CHECK(library::encode_stream(terrain, wanted).report.samples == 99);
+  CHECK(library::encode_pack(terrain, wanted, files.path("t.mtp")).samples == 99);
+  CHECK(contains(refusal([&] { library::encode_stream(before, wanted); }), "area.gpkg: "));
+  terrain.set_features("area.gpkg", "{}");
+  CHECK(contains(refusal([&] { library::encode_stream(terrain, wanted); }), "area.gpkg:1: is not"));
+  wanted.area.clear();
+  const auto plain = library::encode_stream(terrain, wanted).bytes;
+  wanted.breaklines = "lines.shp";
+  const auto lined = library::encode_stream(terrain, wanted).bytes;
+  CHECK((lined != plain));
+  files.session.write("lines.geojson", line);
+  wanted.breaklines = files.path("lines.geojson");
+  CHECK((library::encode_stream(before, wanted).bytes == lined));
+}
+
 TEST_CASE("files: what is no terrain is refused, and errors name the file") {
   const Files files;
   std::filesystem::create_directory(files.path("empty"));

@@ -121,7 +121,7 @@ typedef struct microtin_options {
   const char *epoch, *source_accuracy;    /* "2020.5"; "LE90 4" */
   uint32_t digest, phases;                /* 1: note them, in a stream */
   const char* error_map;                  /* a file with a bound for each post or point */
-  const char *area, *route, *route_width; /* GeoJSON files; the width in metres */
+  const char *area, *route, *route_width; /* files; the width in metres */
   const char *breaklines, *obstacles;     /* files */
   const char* route_edge_error;           /* the bound at the edges of route_width */
 } microtin_options;

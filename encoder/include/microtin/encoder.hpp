@@ -123,6 +123,11 @@ class SourceTerrain {
    * std::runtime_error if a number is out of range. */
   void set_error_map(RasterData bounds);
 
+  /* Takes this GeoJSON text in place of the file `path`, if an option names that: error_map, area,
+   * route, breaklines or obstacles. The file is not read. Errors name it, with the line of the
+   * text. Copies of this terrain made before read the file. */
+  void set_features(const std::string& path, std::string geojson);
+
   struct Content;
   /* For the library itself. */
   const Content& content() const { return *content_; }
@@ -167,19 +172,21 @@ constexpr uint32_t kUsualTileVertices = 2000;
 struct Options {
   std::string max_error; /* the bound: largest distance of the surface from any height */
   /* A file with a bound for each post or point: a raster of bounds, as for set_error_map, which it
-   * replaces, or polygons with a property max_error (.geojson). Elsewhere max_error holds. With
+   * replaces, or polygons with a property max_error: GeoJSON (.geojson, .json), and in builds with
+   * GDAL .gpkg, .shp, .fgb, .kml, .gpx, .dxf, .dgn and .gdb. Elsewhere max_error holds. With
    * max_vertices or max_bytes all bounds are scaled alike, as much as it takes. */
   std::string error_map;
-  /* Files in GeoJSON, in the system of the terrain. `area`: polygons; `route`: lines, with
+  /* Files in GeoJSON, or what GDAL reads in builds with it, in the system of the terrain. A file
+   * that states another one is refused; GeoJSON states none. `area`: polygons; `route`: lines, with
    * route_width metres, half on each side. What lies outside of both has no heights. With
    * route_edge_error the bound grows from max_error at a route to that at the edges. */
   std::string area, route, route_width, route_edge_error;
-  /* A file of lines along which the surface has edges: GeoJSON, or text. Needs a bound; not for
+  /* A file of lines along which the surface has edges: such a file, or text. Needs a bound; not for
    * packs of points. */
   std::string breaklines;
-  /* Raster: a GeoJSON file of what stands on the terrain: points, lines and polygons
-   * with `top`, or `height` above the ground, and `radius`. The surface is below none of it, and
-   * nowhere below the terrain. Needs max_error; never_below and bound_at need not be set. */
+  /* Raster: such a file of what stands on the terrain: points, lines and polygons with `top`, or
+   * `height` above the ground, and `radius`. The surface is below none of it, and nowhere below the
+   * terrain. Needs max_error; never_below and bound_at need not be set. */
   std::string obstacles;
   uint32_t max_vertices = 0; /* stream: the smallest bound with 3 .. 2^24 vertices at most */
   uint32_t max_bytes = 0;    /* stream: the smallest bound whose file has at most this size */

@@ -49,9 +49,9 @@ def encode(
     length, units=":cm", are converted to metres; depths=True negates heights that grow downwards.
 
     error_map gives each height a bound of its own: an array of the heights' shape, NaN for none, or the path of a raster of
-    bounds or of polygons with a property max_error (.geojson). Elsewhere max_error holds. A limit scales all bounds.
+    bounds or of polygons with a property max_error. Elsewhere max_error holds. A limit scales all bounds.
 
-    Paths of GeoJSON files, in the system of the heights: area (polygons; other heights are void), route with
+    Paths of files in the system of the heights, GeoJSON or what a library with GDAL reads: area (polygons; other heights are void), route with
     route_width=METRES (lines; heights far from them are void) and maybe route_edge_error (the bound at the edges, to
     which it grows from max_error), obstacles (with max_error: what stands on the terrain, with `top` or `height` and
     `radius`; the surface is below none of it), and with max_error breaklines (lines that become edges; not in packs of
