@@ -32,7 +32,7 @@ void add_search(CLI::App& command, encoder::Options& options) {
   };
   CLI::Option* const fast =
       add("--fast", "fast", "Search for a short time; files are some 18 % larger");
-  add("--best", "best", "Search for a long time, about four times the usual one")->excludes(fast);
+  add("--best", "best", "Search for a long time, about ten times the usual one")->excludes(fast);
 }
 
 void add_coding(CLI::App& command, encoder::Options& options) {

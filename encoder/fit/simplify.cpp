@@ -193,6 +193,8 @@ SimplifyOptions after_search(SimplifyOptions options) {
 uint32_t rounds_of(Search search) {
   switch (search) {
     case Search::kBest:
+      return 400;
+    case Search::kLong:
       return 130;
     case Search::kNormal:
       return 24;

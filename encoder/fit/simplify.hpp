@@ -20,7 +20,8 @@ enum class Search : uint8_t {
   kTrial,   // to compare steps of height: one round, and heights as they come
   kFast,    // some 18 % more bytes than normal
   kNormal,
-  kBest  // until nothing more is found
+  kLong,  // for one part of a terrain that must become smaller: some 5 % fewer vertices
+  kBest   // some 7 % fewer bytes than normal
 };
 
 struct SimplifyOptions {

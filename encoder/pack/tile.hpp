@@ -103,7 +103,7 @@ std::vector<GlobalPost> uncovered_posts(const microtin_mesh* mesh, const Raster&
 // How many vertices a tile takes; 0 without terrain. Throws Error as encode_tile does.
 uint32_t count_vertices(const TiledRaster& tiled, uint32_t tile, const SimplifyOptions& options);
 
-// Whether a tile with too many vertices may fit after Search::kBest, which leaves 4 to 8 % fewer
+// Whether a tile with too many vertices may fit after Search::kLong, which leaves 4 to 8 % fewer
 // than Search::kNormal: 7 % on the fractal of seed 4 within 5 m. A pack with one such tile then
 // need not have smaller tiles everywhere.
 inline bool long_search_may_fit(uint32_t vertices, uint32_t most, const SimplifyOptions& options) {
@@ -113,7 +113,7 @@ inline bool long_search_may_fit(uint32_t vertices, uint32_t most, const Simplify
 }
 
 inline SimplifyOptions with_long_search(SimplifyOptions options) {
-  options.search = Search::kBest;
+  options.search = Search::kLong;
   return options;
 }
 

@@ -192,7 +192,7 @@ std::vector<Row> rows() {
       {"effort", kAll, fast, two},
       {"effort", 0, setting("", &W::effort, SearchEffort::kNormal, &C::effort, 2u), two},
       {"effort", kAll, setting("--best", &W::effort, SearchEffort::kBest, &C::effort, 3u),
-       bound("1")},
+       bound("1.2")},
       {"max_degree", kAll, setting("--max-degree", &W::max_degree, &C::max_degree, 6u), two},
       {"coding", kAll, coding("--coding quick", Coding::kQuick, 1), two},
       {"coding", 0, coding("--coding balanced", Coding::kBalanced, 2), two},
