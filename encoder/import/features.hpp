@@ -45,7 +45,7 @@ class FeatureFiles {
  private:
   const std::string* text_of(const std::string& path) const;
 
-  Indirect indirect_;
+  [[maybe_unused]] Indirect indirect_;  // of files by GDAL
   std::shared_ptr<const FileTexts> texts_;
 };
 
