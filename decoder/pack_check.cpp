@@ -6,14 +6,6 @@
 namespace microtin {
 namespace {
 
-// A position that no other tile has.
-microtin_segment middle_of(const TileGrid& grid, uint32_t tile) {
-  const TileBox box = tile_box(grid, tile);
-  const int64_t x = (static_cast<int64_t>(box.x) + box.x_end) * 128,
-                y = (static_cast<int64_t>(box.y) + box.y_end) * 128;
-  return microtin_segment{x, y, x, y};
-}
-
 // OK or BAD_TILES if the tile is checked, else a status to be returned.
 microtin_status check_tile(microtin_pack& p, const microtin_segment& middle) {
   // What is being loaded is begun again when it is wanted again.

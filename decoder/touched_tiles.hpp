@@ -25,6 +25,14 @@ MICROTIN_ONE_COPY inline bool is_legal(const microtin_segment& c) {
   return is_legal(c.x, c.x_end) && is_legal(c.y, c.y_end);
 }
 
+// A position that no other tile has.
+inline microtin_segment middle_of(const TileGrid& grid, uint32_t tile) {
+  const TileBox box = tile_box(grid, tile);
+  const int64_t x = (static_cast<int64_t>(box.x) + box.x_end) * 128,
+                y = (static_cast<int64_t>(box.y) + box.y_end) * 128;
+  return microtin_segment{x, y, x, y};
+}
+
 // The tiles whose closed boxes a legal segment meets, row by row from where it begins. Looks at no
 // more than twice as many boxes as its bounding box has columns and rows, together, also after
 // go_to.

@@ -16,12 +16,13 @@
         sizeof(microtin_segment_state), sizeof(microtin_segment_extremes), sizeof(microtin_path), \
         sizeof(microtin_crossing), sizeof(microtin_path_clearance), sizeof(microtin_grid_spec),   \
         sizeof(microtin_gradient), sizeof(microtin_position), sizeof(microtin_grid_extremes),     \
-        sizeof(microtin_pack_info), sizeof(microtin_request), sizeof(microtin_requests),          \
-        sizeof(microtin_spot), sizeof(microtin_spots), sizeof(microtin_stride),                   \
-        sizeof(microtin_inav), sizeof(microtin_inav_look), sizeof(microtin_ardupilot_block),      \
-        sizeof(microtin_ardupilot), sizeof(microtin_raster_data), sizeof(microtin_point_data),    \
-        sizeof(microtin_options), sizeof(microtin_report), sizeof(microtin_grid),                 \
-        sizeof(microtin_surface_info), sizeof(microtin_triangles)                                 \
+        sizeof(microtin_path_search), sizeof(microtin_pack_info), sizeof(microtin_request),       \
+        sizeof(microtin_requests), sizeof(microtin_spot), sizeof(microtin_spots),                 \
+        sizeof(microtin_stride), sizeof(microtin_inav), sizeof(microtin_inav_look),               \
+        sizeof(microtin_ardupilot_block), sizeof(microtin_ardupilot),                             \
+        sizeof(microtin_raster_data), sizeof(microtin_point_data), sizeof(microtin_options),      \
+        sizeof(microtin_report), sizeof(microtin_grid), sizeof(microtin_surface_info),            \
+        sizeof(microtin_triangles)                                                                \
   }
 
 #ifdef __cplusplus

@@ -40,6 +40,8 @@ GRADIENT = ["mesh_gradient_at"]
 PACK_GRADIENT = ["pack_gradient_at"]
 PLACES = ["mesh_heights_at", "mesh_grid_extremes"]
 EDGE_MARKS = ["edge_marks_init", "edge_marks_feed", "edge_marks_finish", "edge_marks_count", "edge_marks_class"]
+PACK_SEARCH = ["pack_search_path"]
+COMPACT_PACK_SEARCH = ["compact_pack_search_path"]
 COMPACT_PACK_PROFILE = ["compact_pack_profile_next"]
 COMPACT_PACK = [{"pack_init": "compact_pack_init", "pack_load": "compact_pack_load"}.get(e, e) for e in PACK]
 COMPACT_PACK_QUERIES = ["compact_" + e if e != "pack_axis_to_lattice" else e for e in PACK_QUERIES]
@@ -66,6 +68,8 @@ USES = {
     "pack_gradient": PACK + PACK_GRADIENT,
     "places": DECODING + PLACES,
     "edge_marks": DECODING + EDGE_MARKS,
+    "pack_search": PACK + PACK_SEARCH,
+    "compact_pack_search": COMPACT_PACK + COMPACT_PACK_SEARCH,
 }
 # What is measured of the decoder in one source, by each compiler.
 ONE_SOURCE_USES = {
@@ -199,7 +203,7 @@ def measure_library(options, library):
         image = str(options.build / "linked")
         all_packs = PACK + PACK_QUERIES + COMPACT_PACK + COMPACT_PACK_QUERIES
         others = NOTES + SAFE_HEIGHTS + SEGMENTS + PACK_CHECK + PACK_BOUNDS + REQUESTS + CLEARANCE + PROFILE + PACK_PROFILE + COMPACT_PACK_PROFILE
-        others += GRADIENT + PACK_GRADIENT + PLACES + EDGE_MARKS
+        others += GRADIENT + PACK_GRADIENT + PLACES + EDGE_MARKS + PACK_SEARCH + COMPACT_PACK_SEARCH
         link(options, library, DECODING + QUERIES + BUCKETS + COMPACT + others + all_packs, image)
         calls = stack_of(options, options.objects[library], image)
         own = {
@@ -210,6 +214,7 @@ def measure_library(options, library):
             "clearance": CLEARANCE, "profile": PROFILE, "pack_profile": PACK_PROFILE,
             "compact_pack_profile": COMPACT_PACK_PROFILE, "gradient": GRADIENT, "pack_gradient": PACK_GRADIENT,
             "places": PLACES, "edge_marks": EDGE_MARKS,
+            "pack_search": PACK_SEARCH, "compact_pack_search": COMPACT_PACK_SEARCH,
         }  # fmt: skip
         for use, entries in own.items():
             result["stack_" + use] = depth_of(options, calls, entries)
@@ -364,6 +369,8 @@ USE_TITLES = {
     "pack_gradient": "packs, gradients",
     "places": "decoding, many positions",
     "edge_marks": "decoding, marks of edges",
+    "pack_search": "packs, search of a path",
+    "compact_pack_search": "packs with compact slots, search of a path",
 }
 STACK_TITLES = {
     "decoding": "decoding",
@@ -385,6 +392,8 @@ STACK_TITLES = {
     "pack_gradient": "a gradient in a pack",
     "places": "many positions",
     "edge_marks": "marks of edges",
+    "pack_search": "search of a path",
+    "compact_pack_search": "search of a path, compact slots",
 }
 
 

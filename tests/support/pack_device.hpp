@@ -72,6 +72,18 @@ class PackDevice {
     return is_compact_ ? microtin_compact_pack_path_clearance(pack, &path, clearance, flags)
                        : microtin_pack_path_clearance(pack, &path, clearance, flags);
   }
+  microtin_status search_path(const microtin_path& path, uint32_t flags,
+                              microtin_path_search* search, uint32_t steps) const {
+    return is_compact_ ? microtin_compact_pack_search_path(pack, &path, flags, search, steps)
+                       : microtin_pack_search_path(pack, &path, flags, search, steps);
+  }
+  microtin_status search_path_with(const microtin_path& path, uint32_t flags,
+                                   microtin_path_search* search, Card& card) const {
+    return is_compact_
+               ? microtin_compact_pack_search_path_with(pack, &path, flags, search, Card::read,
+                                                        &card)
+               : microtin_pack_search_path_with(pack, &path, flags, search, Card::read, &card);
+  }
   microtin_query_result profile_next(const microtin_segment& segment, microtin_segment_state* state,
                                      microtin_crossing* crossing) const {
     return is_compact_ ? microtin_compact_pack_profile_next(pack, &segment, state, crossing)

@@ -65,6 +65,26 @@ static inline microtin_status microtin_compact_pack_load_with(microtin_pack* pac
   }
 }
 
+/* Finds the clearance of a path, and loads no tile that the index rules out, as
+ * microtin_pack_search_path does. */
+microtin_status microtin_compact_pack_search_path(microtin_pack* pack, const microtin_path* path,
+                                                  uint32_t flags, microtin_path_search* search,
+                                                  uint32_t step_limit);
+
+/* Searches all at once, as microtin_pack_search_path_with does. */
+static inline microtin_status microtin_compact_pack_search_path_with(
+    microtin_pack* pack, const microtin_path* path, uint32_t flags, microtin_path_search* search,
+    microtin_read read, void* context) {
+  for (;;) {
+    microtin_status status;
+    int is_ready;
+    if (!pack || !read) return MICROTIN_STATUS_ARGUMENT;
+    is_ready = microtin_pack_read_once(pack, read, context);
+    status = microtin_compact_pack_search_path(pack, path, flags, search, 0);
+    if (status != MICROTIN_STATUS_NEED_INPUT || !is_ready) return status;
+  }
+}
+
 /* Returns between which heights the source lies, as microtin_pack_safe_heights_at does. */
 microtin_query_result microtin_compact_pack_safe_heights_at(const microtin_pack* pack, int64_t x,
                                                             int64_t y, uint32_t* hint,

@@ -33,6 +33,12 @@ class CompactPack : public PackFace {
     if (status_ != MICROTIN_STATUS_OK) return status_;
     return microtin_compact_pack_load_with(pack_, &segment, read, context, step_limit);
   }
+  // Calls microtin_compact_pack_search_path_with.
+  microtin_status search_path_with(const microtin_path& path, microtin_path_search* search,
+                                   microtin_read read, void* context, uint32_t flags = 0) {
+    if (status_ != MICROTIN_STATUS_OK) return status_;
+    return microtin_compact_pack_search_path_with(pack_, &path, flags, search, read, context);
+  }
   // Calls microtin_compact_pack_safe_heights_at.
   microtin_query_result safe_heights_at(int64_t x, int64_t y, uint32_t* hint,
                                         microtin_safe_heights* heights) const {

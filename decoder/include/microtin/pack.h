@@ -281,6 +281,62 @@ static inline microtin_status microtin_pack_bounds_with(microtin_pack* pack,
   }
 }
 
+/* --- The clearance of a path, which loads no tile that the index rules out --- */
+
+/* A flag of microtin_pack_search_path: only the first place where the terrain comes too near is
+ * wanted. More tiles are ruled out. */
+#define MICROTIN_FLAG_FIRST_ONLY 4u
+
+/* What a search along a path found so far. All zero to begin. */
+typedef struct microtin_path_search {
+  microtin_path_clearance clearance; /* what is found, at the end of the search */
+  uint32_t result;  /* a microtin_query_result at the end: OK; OUTSIDE: an end lies outside the
+                       pack; BAD_TILE: a tile is bad; NO_MARGIN, and nothing is found */
+  uint32_t tiles;   /* of the path, handled so far */
+  uint32_t decoded; /* of these: tiles in which the path was compared with the terrain */
+  uint32_t next;    /* the search's own, as all that follows */
+  uint8_t needs_tile, has_bad;
+  microtin_segment_state state;
+} microtin_path_search;
+
+/* Finds what microtin_pack_path_clearance finds if all tiles are loaded, exactly, but loads a tile
+ * only if the index cannot rule it out. A tile is ruled out if the path is above its highest vertex
+ * by the needed clearance and by the least clearance of the tiles before it. One slot suffices for
+ * any number of tiles. Tiles in slots are not read again.
+ *
+ * `flags` is a sum of MICROTIN_FLAG_SAFE, with which the pack's margin rules out and each tile's
+ * own counts, and MICROTIN_FLAG_FIRST_ONLY: then `least` stays INT32_MAX, and it does not count.
+ * Voids have no height and do not count; a tile that is ruled out may have voids. The index is
+ * trusted, as by microtin_pack_is_clear: if a tile is higher than it says, the tile may be missed.
+ *
+ * This is a loading call. Reads, step limit and statuses are those of microtin_pack_load. After
+ * NEED_INPUT, STEP_LIMIT and IO call again with the same path, flags and search. With a step limit
+ * a call walks through at most one tile.
+ *
+ * - OK: done; no tile is bad
+ * - BAD_TILES: done; search->clearance is that of the other tiles
+ * - WORKSPACE_TOO_SMALL: requests of requests.h or queries of other threads use all slots
+ * - ARGUMENT: also for numbers of the path outside their range */
+microtin_status microtin_pack_search_path(microtin_pack* pack, const microtin_path* path,
+                                          uint32_t flags, microtin_path_search* search,
+                                          uint32_t step_limit);
+
+/* Searches all at once, reading by `read`, as microtin_pack_load_with does without a limit. */
+static inline microtin_status microtin_pack_search_path_with(microtin_pack* pack,
+                                                             const microtin_path* path,
+                                                             uint32_t flags,
+                                                             microtin_path_search* search,
+                                                             microtin_read read, void* context) {
+  for (;;) {
+    microtin_status status;
+    int is_ready;
+    if (!pack || !read) return MICROTIN_STATUS_ARGUMENT;
+    is_ready = microtin_pack_read_once(pack, read, context);
+    status = microtin_pack_search_path(pack, path, flags, search, 0);
+    if (status != MICROTIN_STATUS_NEED_INPUT || !is_ready) return status;
+  }
+}
+
 /* --- The header --- */
 
 /* What a pack's header contains. Positions are global lattice coordinates. */
