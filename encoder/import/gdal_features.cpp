@@ -38,7 +38,7 @@ struct ReleaseSystem {
 };
 using OwnedSystem = std::unique_ptr<void, ReleaseSystem>;
 
-// Pipes and devices GDAL refuses in words that help nobody.
+// A pipe or a device is refused here: the message of GDAL would name no remedy.
 GdalDataset open(const std::string& path, Indirect indirect) {
   std::error_code none;
   if (fs::exists(fs::u8path(path), none) && !fs::is_directory(fs::u8path(path), none)) {
@@ -253,7 +253,7 @@ std::string name_of(OGRSpatialReferenceH system) {
   return code == nullptr || authority == nullptr ? text : text + ", " + authority + ':' + code;
 }
 
-// GeoPackages without a system name one so.
+// A GeoPackage without a system states one with such a name.
 bool is_undefined(OGRSpatialReferenceH system) {
   const char* const name = OSRGetName(system);
   return name != nullptr && STARTS_WITH(name, "Undefined ");
