@@ -63,15 +63,19 @@ bool is_kept_everywhere(const PackFile& pack) {
   return everywhere && bound && everywhere->below <= *bound && everywhere->above <= *bound;
 }
 
-// What the pack states of its tiles.
-LatticeOptions options_of(const PackFile& pack, std::optional<BoundScope> bound_at) {
+// What the pack states of its tiles. A pack that has breaklines was not made with a bound
+// everywhere, and keeps one by chance alone.
+LatticeOptions options_of(const PackFile& pack, std::optional<BoundScope> bound_at,
+                          bool has_breaklines) {
   const Metadata& stated = pack.metadata();
   LatticeOptions options;
   options.max_error = stated.bounds ? stated.bounds->max_error : stated.accuracy->bound;
   options.never_below = stated.side == BoundSide::kNeverBelow;
   options.water_level = stated.water_level;
   if (bound_at) options.bound_at = *bound_at;
-  if (!bound_at && is_kept_everywhere(pack)) options.bound_at = BoundScope::kEverywhere;
+  if (!bound_at && !has_breaklines && is_kept_everywhere(pack)) {
+    options.bound_at = BoundScope::kEverywhere;
+  }
   return options;
 }
 
@@ -93,7 +97,7 @@ PackOptions pack_options(const PackFile& old, const EncodeOptions& asked,
                          std::optional<BoundScope> bound_at) {
   refuse_options_of_streams(asked);
   EncodeOptions options = asked;
-  options.lattice = options_of(old, bound_at);
+  options.lattice = options_of(old, bound_at, !asked.lattice.breaklines.empty());
   options.effort = effort_of(old, asked.effort);
   const uint32_t vertices =
       std::max(kFewestTileVertices,

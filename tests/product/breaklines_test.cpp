@@ -344,6 +344,23 @@ TEST_CASE("breaklines: a pack is brought up to date with them") {
   for (const Line& line : placed(beside_borders(), 10)) CHECK(follows(mesh, line, 10, 0));
 }
 
+TEST_CASE("breaklines: a pack that keeps its bound everywhere by chance is updated with them") {
+  const Session session;
+  std::string text = "ncols 61\nnrows 47\nxllcenter 1000\nyllcenter 2000\ncellsize 10\n";
+  for (int post = 0; post < kColumns * kRows; ++post) text += post % 2 == 0 ? "50 " : "51 ";
+  session.write("t.asc", text);
+  write_lines(session, placed(bent(), 10));
+  const std::string options = "t.asc --units metre --breaklines lines.csv -o ";
+  expect_run(session, join({"encode --max-error 9 --tile-size 10 ", options, "t.mtp"}));
+  const auto info = library::Surface::from_file(session.folder() + "/t.mtp").info();
+  REQUIRE(std::stod(info.max_below_everywhere) <= 9);
+  REQUIRE(std::stod(info.max_above_everywhere) <= 9);
+  expect_run(session, join({"update t.mtp ", options, "u.mtp"}));
+  CHECK(session.read("u.mtp") == session.read("t.mtp"));
+  CHECK(contains(session.failure(join({"update t.mtp --bound-at everywhere ", options, "u.mtp"})),
+                 "do not go together"));
+}
+
 TEST_CASE("breaklines: every way to search keeps them") {
   const Session session;
   write_terrain(session, 10);
