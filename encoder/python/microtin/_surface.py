@@ -117,7 +117,7 @@ class Surface:
             begin = 0
             for i in range(found.count):
                 vertices = numpy.empty((found.vertices[i], 3))
-                numbers = ctypes.cast(found.coordinates, ctypes.c_void_p).value + begin * vertices.itemsize
+                numbers = ctypes.addressof(found.coordinates.contents) + begin * vertices.itemsize
                 ctypes.memmove(vertices.ctypes.data, numbers, vertices.nbytes)
                 begin += vertices.size
                 lines.append((found.classes[i].decode(), vertices))
