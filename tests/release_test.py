@@ -20,7 +20,7 @@ HEADER = "decoder/include/microtin/microtin.h"
 STREAM, PACK = "shared/docs/format-stream.md", "shared/docs/format-pack.md"
 COPIED = (".ci/release", ".ci/artefacts", "CMakeLists.txt", "CHANGELOG.md", "CITATION.cff", "LICENSE", "README.md",
           "decoder/packages", "pyproject.toml", "setup.py", STREAM, PACK, "shared/format.hpp", "shared/pack_format.hpp",
-          HEADER, CONTROL)  # fmt: skip
+          HEADER, CONTROL, "fuzz/hours.py")  # fmt: skip
 GIT = {"GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_NOSYSTEM": "1"} | {
     f"GIT_{who}_{what}": "test@microtin.example" for who in ("AUTHOR", "COMMITTER") for what in ("NAME", "EMAIL")
 }
@@ -61,9 +61,18 @@ def ready(folder):
     script = (folder / "CMakeLists.txt").read_text()
     (folder / "CMakeLists.txt").write_text(script.replace("microtin.example", "microtin.test"))
     replace(folder / CONTROL, "microtin@example.org", "microtin@microtin.test")
+    log(folder, 25, 5)
     (folder / ".gitignore").write_text("build/\n")
     run("git", "init", "-q", folder=folder)
     commit(folder)
+
+
+def log(folder, in_all, since_change):
+    """Writes hours of fuzzing: in all, and with the decoder as it is."""
+    sources = run(sys.executable, "fuzz/hours.py", "--sources", folder=folder).stdout.strip()
+    rows = (("0" * 12, in_all - since_change), (sources, since_change))
+    text = "".join(f"2026-12-01 {digest} decode 1000 {3600 * hours:.0f}\n" for digest, hours in rows)
+    (folder / "fuzz/log.txt").write_text("# comment\n" + text)
 
 
 def commit(folder):
@@ -134,6 +143,7 @@ class Refusals(unittest.TestCase):
     def test_the_version_of_a_format(self):
         def plant(folder):
             replace(folder / "shared/pack_format.hpp", "kPackVersion = ", "kPackVersion = 1")
+            log(folder, 25, 5)
 
         self.refused(plant, "format-pack.md:1: does not have the version .*; correct", trial=False)
 
@@ -152,6 +162,12 @@ class Refusals(unittest.TestCase):
             with self.subTest(state):
                 self.refused(lambda folder: [replace(folder / page, old, new) for page in (STREAM, PACK)],
                              *(f'{page}: the status of the format is "{state}"; freeze' for page in (STREAM, PACK)))  # fmt: skip
+
+    def test_too_little_fuzzing(self):
+        reason = r"fuzz/log.txt: has {} hours of fuzzing, {} with the decoder as it is, not 24 and 4; run"
+        self.refused(lambda folder: log(folder, 23, 5), reason.format("23.0", "5.0"))
+        self.refused(lambda folder: log(folder, 30, 3), reason.format("30.0", "3.0"))
+        self.refused(lambda folder: replace(folder / HEADER, "#ifndef", "/* New. */\n#ifndef"), reason.format("25.0", "0.0"))
 
     def test_a_readme_that_states_otherwise(self):
         self.refused(lambda folder: replace(folder / "README.md", "## Limits\n", "## Limits\n\nIt is not frozen yet.\n"),

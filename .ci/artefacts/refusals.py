@@ -9,6 +9,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "fuzz"))
+from hours import hours  # noqa: E402
+
 CONTROL = ".ci/debian/control"
 HEADER = "decoder/include/microtin/microtin.h"
 # Files in which ecosystems look for a version. A version written there must be the header's.
@@ -22,7 +25,9 @@ FORMATS = (
     ("shared/docs/format-stream.md", "shared/format.hpp", "kVersion"),
     ("shared/docs/format-pack.md", "shared/pack_format.hpp", "kPackVersion"),
 )
-ONLY_RELEASES = ("tree", "changelog", "frozen", "address")  # what --trial only warns of
+ONLY_RELEASES = ("tree", "changelog", "frozen", "fuzzed", "address")  # what --trial only warns of
+# Hours of processor time that fuzzing must have taken, in all and since the decoder's sources changed.
+FUZZED_HOURS, FUZZED_SINCE_CHANGE = 24, 4
 
 
 def git(*arguments):
@@ -95,6 +100,15 @@ def frozen(version):
             yield f"README.md:{number}: states that the format is not frozen; freeze it, and remove the sentence"
 
 
+def fuzzed(version):
+    in_all, since_change = hours()
+    if in_all < FUZZED_HOURS or since_change < FUZZED_SINCE_CHANGE:
+        yield (
+            f"fuzz/log.txt: has {in_all:.1f} hours of fuzzing, {since_change:.1f} with the decoder as it is, not {FUZZED_HOURS} and"
+            f" {FUZZED_SINCE_CHANGE}; run fuzz/run, then python3 fuzz/hours.py --record"
+        )
+
+
 def project_url(root=Path(".")):
     return re.search(r'HOMEPAGE_URL "([^"]+)"', (root / "CMakeLists.txt").read_text()).group(1)
 
@@ -108,7 +122,7 @@ def address(version):
         yield f"{CONTROL}: the address of the Maintainer is a placeholder; write one that people can reach"
 
 
-CHECKS = (tree, versions, changelog, format_versions, frozen, address)
+CHECKS = (tree, versions, changelog, format_versions, frozen, fuzzed, address)
 
 
 def main():
