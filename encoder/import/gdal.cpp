@@ -228,13 +228,7 @@ Raster import_gdal(const std::string& path, Indirect indirect, uint32_t band) {
 }
 
 std::vector<std::string> gdal_files(const std::string& path, Indirect indirect) {
-  GdalDataset dataset;
-  try {
-    dataset = open(path, indirect);
-  } catch (const Error&) {  // reading it says why
-    return {path};
-  }
-  return files_of_dataset(dataset);
+  return files_by_gdal(path, [&] { return open(path, indirect); });
 }
 
 }  // namespace microtin::importing

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "encoder/base/error.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/layers.hpp"
 
@@ -29,6 +30,17 @@ GdalDataset open_gdal_dataset(const std::string& path, Indirect indirect, GdalKi
 
 // All files that the dataset is read from.
 std::vector<std::string> files_of_dataset(const GdalDataset& dataset);
+
+// All files that the dataset of a file is read from. open() returns it; if that throws Error, these
+// are the file alone, and the fault is reported when the file is read.
+template <class Open>
+std::vector<std::string> files_by_gdal(const std::string& path, const Open& open) {
+  try {
+    return files_of_dataset(open());
+  } catch (const Error&) {
+    return {path};
+  }
+}
 
 }  // namespace microtin::importing
 

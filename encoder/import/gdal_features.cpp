@@ -294,13 +294,7 @@ void expect_gdal_system(const std::string& path, Indirect indirect, const Refere
 }
 
 std::vector<std::string> gdal_feature_files(const std::string& path, Indirect indirect) {
-  GdalDataset dataset;
-  try {
-    dataset = open(path, indirect);
-  } catch (const Error&) {  // reading it says why
-    return {path};
-  }
-  return files_of_dataset(dataset);
+  return files_by_gdal(path, [&] { return open(path, indirect); });
 }
 
 }  // namespace microtin::importing
