@@ -15,7 +15,7 @@
 #include "encoder/export/system.hpp"
 #include "encoder/files/input.hpp"
 #include "encoder/files/output.hpp"
-#include "encoder/import/geojson.hpp"
+#include "encoder/import/features.hpp"
 #include "encoder/product/document.hpp"
 #include "encoder/stream/embed.hpp"
 

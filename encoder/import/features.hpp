@@ -5,15 +5,33 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "encoder/import/geojson.hpp"
+#include "encoder/exact/decimal.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/terrain/polygons.hpp"
 #include "encoder/terrain/source.hpp"
 
 namespace microtin::importing {
+
+struct Feature {
+  std::vector<RealRings> polygons;
+  std::vector<RealLine> lines;
+  std::vector<RealPoint> points;
+  // The property max_error: a number from 0 up, or null, which leaves places without a bound.
+  bool has_max_error = false;
+  std::optional<Decimal> max_error;
+  // Properties of obstacles: a height above the zero of heights, or from 0 up above the ground; and
+  // metres from 0 up around the geometry.
+  std::optional<Decimal> top, height, radius;
+  // The property class of lines: a text, and the place where it stands, "a.geojson:3".
+  std::string line_class, place_of_class;
+};
 
 // Texts by the names of the files that they stand for.
 using FileTexts = std::map<std::string, std::string>;
@@ -48,6 +66,13 @@ class FeatureFiles {
   [[maybe_unused]] Indirect indirect_;  // of files by GDAL
   std::shared_ptr<const FileTexts> texts_;
 };
+
+// Reads the features of a GeoJSON text: collections, features and geometries. Coordinates are
+// numbers of the terrain's own system. Throws Error with the line of a fault.
+std::vector<Feature> import_geojson(const std::string& name, std::string_view text);
+
+// Whether a file of that name is GeoJSON: .geojson or .json.
+bool is_geojson(const std::string& path);
 
 #ifdef MICROTIN_WITH_GDAL
 // The features of the layer that has some. Curves become lines, and parts that are empty are left

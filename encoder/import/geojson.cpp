@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Reads JSON, and takes from it what GeoJSON (RFC 7946) says of areas and lines.
-#include "encoder/import/geojson.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <utility>
@@ -9,6 +7,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/base/text.hpp"
 #include "encoder/exact/fraction.hpp"
+#include "encoder/import/features.hpp"
 #include "encoder/import/text.hpp"
 
 namespace microtin::importing {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // GeoJSON, valid and broken in every way; rings against a place-by-place check.
-#include "encoder/import/geojson.hpp"
-
 #include <doctest/doctest.h>
 
 #include <string>
 #include <vector>
 
 #include "encoder/base/error.hpp"
+#include "encoder/import/features.hpp"
 #include "encoder/terrain/polygons.hpp"
 #include "tests/support/layers.hpp"
 
