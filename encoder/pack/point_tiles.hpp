@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A cloud of points in tiles: a triangulation of all its points; the cloud on the lattice of the
 // pack, which is wider than that of a stream; the borders between tiles (format-pack.md, section
-// 3); and each tile. Each has a source of its own.
+// 3); and each tile. The triangulation and the borders have sources of their own.
 #ifndef MICROTIN_ENCODER_PACK_POINT_TILES_HPP
 #define MICROTIN_ENCODER_PACK_POINT_TILES_HPP
 
