@@ -272,7 +272,10 @@ def main():
     rejected = 0
     for name, text in (("format-stream.md", annotated_stream()), ("format-pack.md", annotated_pack())):
         page = folder / name
-        before, _, rest = page.read_text(encoding="utf-8").partition(BEGIN)
+        content = page.read_text(encoding="utf-8")
+        if content.count(BEGIN) != 1 or content.count(END) != 1:
+            sys.exit(f"{name} has no place for the annotated file, or several")
+        before, _, rest = content.partition(BEGIN)
         old, _, after = rest.partition(END)
         if "--write" in sys.argv:
             page.write_text(f"{before}{BEGIN}\n{text}\n{END}{after}", encoding="utf-8")
