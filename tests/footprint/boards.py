@@ -50,6 +50,11 @@ BOARDS = [
     Board("Longan Nano", "GD32VF103CB (RV32IMAC)", "rv32imc", 128, 32, (), "gd32v"),
 ]
 PLATFORMIO_HOSTS = {"native"}  # the host, for unit tests
+SMALL = [  # with 16 KB of RAM, which CI emulates
+    next(board for board in BOARDS if board.name == "micro:bit v1"),
+    Board("ATmega1284P", "AVR", "avr", 128, 16, (), ""),
+]
+KEPT_TILES, KEPT_VERTICES = 9, 64  # of the pack of tests/firmware/kept.cpp, which both hold in compact slots
 
 
 def line(budget, kind):
@@ -120,6 +125,15 @@ def rows(budget):
 
 HEAD = ["board", "processor", "sizes from", "flash, KB", "RAM, KB", "flash, decoding and queries", "vertices of a mesh",
         "flash, packs", "vertices of each of nine compact tiles"]  # fmt: skip
+
+
+def small_rows(budget):
+    """What fits in 16 KB of RAM, of which the application has a quarter."""
+    kept = f"{KEPT_TILES * KEPT_VERTICES} in {KEPT_TILES} tiles"
+    return [[board.name, f"{mesh_vertices(budget, board):,}", kept] for board in SMALL]
+
+
+SMALL_HEAD = ["device", "vertices of one terrain, mesh or compact", "vertices of a pack, compact slots"]
 
 
 def architectures(budget):
