@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Divides real coordinates by the steps of an axis, in integers.
 #include "decoder/axis.hpp"
 
 #include "shared/fixed_math.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The walk through a mesh, compiled once for all queries of meshes.
 #include "decoder/walk.hpp"
 
 namespace microtin {

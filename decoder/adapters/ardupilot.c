@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+/* Answers the terrain questions of ArduPilot from a pack. */
 #include "ardupilot.h"
 
 void microtin_ardupilot_init(microtin_ardupilot* terrain, microtin_pack* pack, uint16_t spacing) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+/* Answers the terrain questions of INAV from a pack. */
 #include "inav.h"
 
 void microtin_inav_init(microtin_inav* inav, microtin_pack* pack) {

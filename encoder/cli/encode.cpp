@@ -329,8 +329,8 @@ void announce_memory(const Job& job, const std::vector<std::string>& inputs) {
   std::fputs(warning(job.input + ": " + text).c_str(), stderr);
 }
 
-// A name that says something else would have other programs read what is none of theirs. Shards are
-// named at will.
+// Other programs choose how to read a file by its suffix, so another suffix is refused. No other
+// program reads shards: they may have any name.
 void expect_own_suffix(const std::string& output, bool is_pack) {
   const std::string suffix = suffix_of(output);
   if (suffix.empty() || suffix == ".mtp" || (suffix == ".mtin" && !is_pack)) return;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Defines options of the command line, and reads their values.
 #include "encoder/cli/options.hpp"
 
 #include <algorithm>

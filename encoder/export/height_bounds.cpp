@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Bounds of heights in areas and along lines, from the tiles that these may touch.
 #include <algorithm>
 #include <cmath>
 #include <utility>

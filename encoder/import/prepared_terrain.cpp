@@ -307,10 +307,6 @@ Source prepared_file(const std::string& path, const std::string& file,
   return source;
 }
 
-}  // namespace
-
-namespace {
-
 Source without_bounds(const std::string& path, const Preparation& preparation) {
   const std::vector<std::string> parts = parts_of(path, preparation);
   if (parts.size() == 1 && !preparation.gridded) return prepared_file(path, parts[0], preparation);

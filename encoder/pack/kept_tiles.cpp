@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Compares the tiles of an old pack with the posts of the changed raster.
 #include "encoder/pack/kept_tiles.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Makes packs from sources and from parts, and writes them.
 #include "encoder/product/made_pack.hpp"
 
 #include <utility>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Answers by the exact surface, or by a device's pack that reads the same file.
 #include "encoder/product/place_query.hpp"
 
 #include <algorithm>

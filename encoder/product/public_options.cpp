@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Reads and checks the public options, and translates them.
 #include "encoder/product/public_options.hpp"
 
 #include <cerrno>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Encodes the changed tiles of a pack again, with the options that the pack states.
 #include <algorithm>
 #include <utility>
 
