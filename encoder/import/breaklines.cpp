@@ -60,6 +60,8 @@ class TextLineReader {
     return std::move(lines_);
   }
 
+  const StatedSystem& stated() const { return stated_; }
+
  private:
   [[noreturn]] void fail(const std::string& what) const { fail_at(name_, number_, what); }
 
@@ -78,13 +80,28 @@ class TextLineReader {
     } else {
       split_at_blanks(line, fields_);
     }
+    for (std::string_view& field : fields_) field = without_quotes(field);
     if (!is_begun_ && std::none_of(fields_.begin(), fields_.end(), is_number)) {
       is_begun_ = true;
       read_names();
       return;
     }
     is_begun_ = true;
+    expect_decimal_points(line);
     read_position();
+  }
+
+  // Commas are between the columns, or between these and their decimals.
+  void expect_decimal_points(std::string_view line) const {
+    if (line.find(';') != line.npos || line.find(',') == line.npos) return;
+    const std::size_t columns = fields_.size() - (fields_.back().empty() ? 1 : 0);
+    if (names_ != 0 && columns > names_) {
+      fail(std::to_string(columns) + " columns under " + std::to_string(names_) +
+           " names; decimals are written with a point");
+    }
+    if (names_ == 0 && columns > 3 && has_torn_decimals(line, fields_)) {
+      fail("a number after a comma begins with 0, as decimals do, which are written with a point");
+    }
   }
 
   static bool is_number(std::string_view field) { return parse_decimal(field).has_value(); }
@@ -94,7 +111,7 @@ class TextLineReader {
     line_column_ = class_column_ = kNoColumn;
     for (std::size_t i = 0; i < fields_.size(); ++i) {
       if (const std::optional<PointColumn> column = column_named(fields_[i])) {
-        if (column_[column->axis] == kNoColumn) column_[column->axis] = i;
+        if (column_[column->axis] == kNoColumn) take(*column, i);
       } else if (line_column_ == kNoColumn && names_lines(fields_[i])) {
         line_column_ = i;
       } else if (class_column_ == kNoColumn && names_classes(fields_[i])) {
@@ -102,7 +119,23 @@ class TextLineReader {
       }
     }
     if (column_[0] == kNoColumn || column_[1] == kNoColumn) {
+      const bool may_be_numbers = fields_[0].find_first_of("0123456789") == 0;
+      if (may_be_numbers) fail(not_a_number(fields_[0]));
       fail("no columns are named as x and y: name them, or begin the line with #");
+    }
+    names_ = fields_.size();
+  }
+
+  // The column of an axis, and what its name states.
+  void take(const PointColumn& column, std::size_t place) {
+    column_[column.axis] = place;
+    if (column.axis == 2) {
+      stated_.vertical = column.unit;
+      stated_.is_depth = column.is_depth;
+    } else if (column.is_degree) {
+      stated_.horizontal.unit = Unit::kDegree;
+    } else if (column.unit.is_stated()) {
+      stated_.horizontal = column.unit;
     }
   }
 
@@ -151,6 +184,8 @@ class TextLineReader {
   bool is_begun_ = false;
   std::array<std::size_t, 3> column_ = {0, 1, 2};
   std::size_t line_column_ = 3, class_column_ = kNoColumn;
+  std::size_t names_ = 0;  // of columns
+  StatedSystem stated_;
   std::string line_name_;
   RealLine line_;
   LineClass class_ = LineClass::kOther;
@@ -187,12 +222,31 @@ BreaklineFile without_single_places(BreaklineFile&& all) {
   return some;
 }
 
+bool is_text(const std::string& path, const FeatureFiles& files) {
+  return !files.has_features(path) && !files.is_for_gdal(path);
+}
+
+BreaklineFile lines_of_text(const std::string& path, const FeatureFiles& files) {
+  TextLineReader reader(path);
+  BreaklineFile lines = reader.read(read_file(path));
+  files.note(path, reader.stated(), beyond_earth(lines.lines));
+  return lines;
+}
+
 }  // namespace
 
+void note_breaklines(const std::string& path, const FeatureFiles& files) {
+  if (files.is_noted(path) || !is_regular_file(path)) return;
+  if (is_text(path, files)) {
+    lines_of_text(path, files);
+  } else {
+    files.read(path);
+  }
+}
+
 BreaklineFile read_breaklines(const std::string& path, const FeatureFiles& files) {
-  const bool is_text = !files.has_features(path) && !files.is_for_gdal(path);
-  BreaklineFile all = without_single_places(is_text ? TextLineReader(path).read(read_file(path))
-                                                    : lines_of(files.read(path)));
+  BreaklineFile all = without_single_places(is_text(path, files) ? lines_of_text(path, files)
+                                                                 : lines_of(files.read(path)));
   const std::vector<RealLine>& lines = all.lines;
   if (lines.empty()) throw Error(path + ": has no line");
   for (std::size_t i = 0; i < lines.size(); ++i) {

@@ -26,6 +26,10 @@ struct BreaklineFile {
 // line, a class that there is not.
 BreaklineFile read_breaklines(const std::string& path, const FeatureFiles& files);
 
+// Reads which system and units a file of breaklines states, for FeatureFiles::expect_system, unless
+// that is known, or the file is a pipe, which can be read once only.
+void note_breaklines(const std::string& path, const FeatureFiles& files);
+
 }  // namespace microtin::importing
 
 #endif

@@ -3,6 +3,7 @@
 #ifndef MICROTIN_ENCODER_IMPORT_FEATURES_HPP
 #define MICROTIN_ENCODER_IMPORT_FEATURES_HPP
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "encoder/exact/decimal.hpp"
+#include "encoder/exact/units.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/polygons.hpp"
@@ -33,21 +35,57 @@ struct Feature {
   std::string line_class, place_of_class;
 };
 
+// In which system and units a file of features states that it is.
+struct StatedSystem {
+  std::string name;              // of the horizontal system, as the file has it; empty: none
+  uint32_t horizontal_epsg = 0;  // its code; 0: it is not known
+  StatedUnit horizontal, vertical;
+  bool is_depth = false;  // heights are depths
+};
+
+struct FeatureFile {
+  std::vector<Feature> features;
+  StatedSystem stated;
+};
+
 // Texts by the names of the files that they stand for.
 using FileTexts = std::map<std::string, std::string>;
 
+// What was read of files, by their names. A pipe can be read once only, so that the features of a
+// file whose system was looked at are kept until they are asked for.
+struct ReadFeatures {
+  struct File {
+    StatedSystem stated;
+    std::string beyond;  // a position that there is not in degrees, or empty
+    std::optional<std::vector<Feature>> features;
+  };
+  std::map<std::string, File> files;
+};
+
+// The first coordinate of lines that there is not in degrees, "latitude 158 is beyond 90 degrees",
+// or empty.
+std::string beyond_earth(const std::vector<RealLine>& lines);
+
 class FeatureFiles {
  public:
-  // `texts` are GeoJSON; null: all files are read.
+  // `texts` are GeoJSON; null: all files are read. `kept`: what several of these objects share.
   explicit FeatureFiles(Indirect indirect = Indirect::kRefused,
-                        std::shared_ptr<const FileTexts> texts = nullptr)
-      : indirect_(indirect), texts_(std::move(texts)) {}
+                        std::shared_ptr<const FileTexts> texts = nullptr,
+                        std::shared_ptr<ReadFeatures> kept = std::make_shared<ReadFeatures>())
+      : indirect_(indirect), texts_(std::move(texts)), kept_(std::move(kept)) {}
 
   // Features in the terrain's own system. Throws Error naming the file.
   std::vector<Feature> read(const std::string& path) const;
 
-  // Throws Error naming the file if it states another horizontal system than `terrain`. GeoJSON
-  // counts as being in the terrain's.
+  // Notes what a text of breaklines states, and `beyond_earth` of its lines, as `read` does.
+  void note(const std::string& path, const StatedSystem& stated, const std::string& beyond) const;
+
+  // Whether a file was read, or its system looked at.
+  bool is_noted(const std::string& path) const;
+
+  // Throws Error naming the file if it states another system or unit than `terrain`, or if that is
+  // in degrees and the file has a position that there is not on Earth. A file that states nothing
+  // counts as being in the terrain's system.
   void expect_system(const std::string& path, const Reference& terrain) const;
 
   // Whether GDAL reads the file: it has no text here, and a suffix that is not one of GeoJSON or of
@@ -62,14 +100,16 @@ class FeatureFiles {
 
  private:
   const std::string* text_of(const std::string& path) const;
+  FeatureFile parsed(const std::string& path) const;
 
   [[maybe_unused]] Indirect indirect_;  // of files by GDAL
   std::shared_ptr<const FileTexts> texts_;
+  std::shared_ptr<ReadFeatures> kept_;
 };
 
 // Reads the features of a GeoJSON text: collections, features and geometries. Coordinates are
 // numbers of the terrain's own system. Throws Error with the line of a fault.
-std::vector<Feature> import_geojson(const std::string& name, std::string_view text);
+FeatureFile import_geojson(const std::string& name, std::string_view text);
 
 // Whether a file of that name is GeoJSON: .geojson or .json.
 bool is_geojson(const std::string& path);

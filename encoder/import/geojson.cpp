@@ -2,12 +2,15 @@
 // Reads JSON, and takes from it what GeoJSON (RFC 7946) says of areas and lines.
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <cstdint>
 #include <utility>
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/text.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/import/features.hpp"
+#include "encoder/import/raster.hpp"
 #include "encoder/import/text.hpp"
 
 namespace microtin::importing {
@@ -26,6 +29,15 @@ struct Value {
   // Null if there is none.
   const Value* find(std::string_view name) const {
     const auto at = std::find(names.begin(), names.end(), name);
+    return at == names.end() ? nullptr : &values[static_cast<std::size_t>(at - names.begin())];
+  }
+
+  // A property, whose name may be in capitals, as in a shapefile. Null if there is none.
+  const Value* property(std::string_view name) const {
+    if (const Value* const exact = find(name)) return exact;
+    const auto at = std::find_if(names.begin(), names.end(), [&](std::string_view one) {
+      return lower_case(std::string(one)) == name;
+    });
     return at == names.end() ? nullptr : &values[static_cast<std::size_t>(at - names.begin())];
   }
 };
@@ -131,7 +143,8 @@ class JsonReader {
     value.text = text_.substr(start, at_ - start);
     if (value.text == "null") return;
     const bool is_word = value.text == "true" || value.text == "false";
-    if (!is_word && !parse_decimal(value.text)) fail();
+    // Properties that do not count may be of any size, and NaN as Python writes it.
+    if (!is_word && !number_of_any_size(value.text)) fail();
     value.kind = is_word ? Value::kOther : Value::kNumber;
   }
 
@@ -144,9 +157,11 @@ class FeatureReader {
  public:
   explicit FeatureReader(const std::string& name) : name_(name) {}
 
-  std::vector<Feature> read(const Value& document) {
+  FeatureFile read(const Value& document) {
     read_any(document);
-    return std::move(features_);
+    FeatureFile file{std::move(features_), {}};
+    if (document.kind == Value::kObject) file.stated = system_of(document);
+    return file;
   }
 
  private:
@@ -179,9 +194,34 @@ class FeatureReader {
     }
   }
 
+  // Programs write a member `crs`, of an older version of GeoJSON, where the system is another one.
+  static StatedSystem system_of(const Value& document) {
+    const Value* const crs = document.find("crs");
+    const Value* const of_crs =
+        crs != nullptr && crs->kind == Value::kObject ? crs->find("properties") : nullptr;
+    const Value* const name =
+        of_crs != nullptr && of_crs->kind == Value::kObject ? of_crs->find("name") : nullptr;
+    if (name == nullptr || name->kind != Value::kText) return {};
+    StatedSystem stated;
+    stated.name = std::string(name->text);
+    stated.horizontal_epsg = code_named(name->text);
+    return stated;
+  }
+
+  // "EPSG:25832", "urn:ogc:def:crs:EPSG::25832", "urn:ogc:def:crs:OGC:1.3:CRS84"; 0 for others.
+  static uint32_t code_named(std::string_view name) {
+    constexpr uint32_t kWgs84 = 4326;
+    const std::string_view last = name.substr(name.find_last_of(":/") + 1);
+    if (last == "CRS84" || last == "CRS84h") return kWgs84;
+    uint32_t code = 0;
+    const char* const end = last.data() + last.size();
+    const auto [next, error] = std::from_chars(last.data(), end, code);
+    return next == end && error == std::errc() && name.find("EPSG") != name.npos ? code : 0;
+  }
+
   std::optional<Decimal> number_of(const Value& properties, const char* name,
                                    bool is_negative_allowed) const {
-    const Value* const value = properties.find(name);
+    const Value* const value = properties.property(name);
     if (value == nullptr || value->kind == Value::kNull) return std::nullopt;
     std::optional<Decimal> number;
     if (value->kind == Value::kNumber) number = parse_decimal(value->text);
@@ -197,8 +237,8 @@ class FeatureReader {
     features_.back().top = number_of(properties, "top", true);
     features_.back().height = number_of(properties, "height", false);
     features_.back().radius = number_of(properties, "radius", false);
-    read_class(properties.find("class"));
-    const Value* const bound = properties.find("max_error");
+    read_class(properties.property("class"));
+    const Value* const bound = properties.property("max_error");
     if (bound == nullptr) return;
     Feature& feature = features_.back();
     feature.has_max_error = true;
@@ -271,7 +311,7 @@ class FeatureReader {
   Decimal coordinate_of(const Value& value) const {
     const auto number = value.kind == Value::kNumber ? parse_decimal(value.text, kPlaceDecimals)
                                                      : std::optional<Decimal>();
-    if (!number) fail(value, "a coordinate is not a number");
+    if (!number) fail(value, "a coordinate is not a number in range");
     return *number;
   }
 
@@ -281,8 +321,8 @@ class FeatureReader {
 
 }  // namespace
 
-std::vector<Feature> import_geojson(const std::string& name, std::string_view text) {
-  return FeatureReader(name).read(JsonReader(name, text).document());
+FeatureFile import_geojson(const std::string& name, std::string_view text) {
+  return FeatureReader(name).read(JsonReader(name, without_mark(text)).document());
 }
 
 bool is_geojson(const std::string& path) {

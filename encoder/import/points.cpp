@@ -32,11 +32,6 @@ bool has_mixed_separators(std::string_view line) {
   return has_bare_comma && has_bare_blank;
 }
 
-std::string_view without_quotes(std::string_view field) {
-  const bool is_quoted = field.size() > 1 && field.front() == '"' && field.back() == '"';
-  return is_quoted ? field.substr(1, field.size() - 2) : field;
-}
-
 class TextPointReader {
  public:
   explicit TextPointReader(const std::string& name) : name_(name) {}
@@ -105,15 +100,6 @@ class TextPointReader {
     return false;
   }
 
-  // Whether what is between commas may be decimals: 5,07 and not 5, 7.
-  bool has_torn_decimals(std::string_view line) const {
-    if (line.find(',') == line.npos || line.find('.') != line.npos) return false;
-    return std::any_of(fields_.begin() + 1, fields_.end(), [](std::string_view field) {
-      return field.size() > 1 && field[0] == '0' &&
-             field.find_first_not_of("0123456789") == field.npos;
-    });
-  }
-
   void check_columns(std::string_view line) {
     if (columns_ == 0) columns_ = fields_.size();
     if (fields_.size() < 2) fail("a point needs two or three numbers");
@@ -122,7 +108,7 @@ class TextPointReader {
     }
     if (names_ != 0) {
       check_names(separator_ == ',' && line.find(',') != line.npos);
-    } else if (columns_ > 3 && has_torn_decimals(line)) {
+    } else if (columns_ > 3 && has_torn_decimals(line, fields_)) {
       fail("a number after a comma begins with 0, as decimals do, which are written with a point");
     }
   }

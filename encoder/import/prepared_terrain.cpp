@@ -13,6 +13,7 @@
 #include "encoder/exact/fraction.hpp"
 #include "encoder/files/input.hpp"
 #include "encoder/import/area.hpp"
+#include "encoder/import/breaklines.hpp"
 #include "encoder/import/corridor.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/mosaic.hpp"
@@ -220,7 +221,7 @@ Raster whole_of(const std::string& path, const RasterReader& raster) {
 }  // namespace
 
 FeatureFiles feature_files_of(const Preparation& preparation) {
-  return FeatureFiles(preparation.indirect, preparation.texts);
+  return FeatureFiles(preparation.indirect, preparation.texts, preparation.features);
 }
 
 namespace {
@@ -268,8 +269,12 @@ std::vector<std::string> files_of(const std::string& path, const Preparation& pr
 }
 
 void expect_systems(const Preparation& preparation, const Reference& terrain) {
+  const FeatureFiles files = feature_files_of(preparation);
+  if (!preparation.breaklines.empty()) note_breaklines(preparation.breaklines, files);
   for (const std::string& name : feature_names_of(preparation)) {
-    feature_files_of(preparation).expect_system(name, terrain);
+    const bool is_unread_pipe =
+        name == preparation.breaklines && !files.is_for_gdal(name) && !files.is_noted(name);
+    if (!is_unread_pipe) files.expect_system(name, terrain);
   }
 }
 

@@ -50,7 +50,8 @@ struct Preparation {
   std::string obstacles;                    // the file of what raises the terrain; empty: none
   std::string breaklines;                   // the file of lines, which are read elsewhere
   std::shared_ptr<const FileTexts> texts;   // that stand for such files; null: there are none
-  std::optional<Decimal> max_error;         // the bound where that says nothing
+  std::shared_ptr<ReadFeatures> features = std::make_shared<ReadFeatures>();  // of such files
+  std::optional<Decimal> max_error;  // the bound where that says nothing
   // Settled with each file's; nothing: units and systems are left alone, where no heights are used.
   std::optional<Reference> asked = Reference{};
 };
@@ -58,7 +59,8 @@ struct Preparation {
 // How the files of features are read.
 FeatureFiles feature_files_of(const Preparation& preparation);
 
-// Throws Error naming the file if one of the files of features states another horizontal system.
+// Throws Error naming the file if one of the files of features states another system, or has
+// positions that there are not.
 void expect_systems(const Preparation& preparation, const Reference& terrain);
 
 // All files that a terrain is read from, those of a folder and a list too; none for one without a

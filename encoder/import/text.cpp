@@ -31,6 +31,19 @@ std::string not_a_number(std::string_view word) {
   return quoted(word) + " is not a number in range" + remedy_for_commas(word);
 }
 
+std::string_view without_quotes(std::string_view field) {
+  const bool is_quoted = field.size() > 1 && field.front() == '"' && field.back() == '"';
+  return is_quoted ? field.substr(1, field.size() - 2) : field;
+}
+
+bool has_torn_decimals(std::string_view line, const std::vector<std::string_view>& fields) {
+  if (line.find(',') == line.npos || line.find('.') != line.npos) return false;
+  return std::any_of(fields.begin() + 1, fields.end(), [](std::string_view field) {
+    return field.size() > 1 && field[0] == '0' &&
+           field.find_first_not_of("0123456789") == field.npos;
+  });
+}
+
 std::string not_a_height(double value) {
   char digits[32];
   const std::string text(

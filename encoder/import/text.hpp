@@ -28,6 +28,12 @@ std::string remedy_for_commas(std::string_view piece);
 // voids.
 std::string not_a_height(double value);
 
+// A field without the quotes around it.
+std::string_view without_quotes(std::string_view field);
+
+// Whether what is between commas may be decimals: 5,07 and not 5, 7.
+bool has_torn_decimals(std::string_view line, const std::vector<std::string_view>& fields);
+
 inline bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }

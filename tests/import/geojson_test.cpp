@@ -34,14 +34,16 @@ std::string message_of(const std::string& text) {
 }  // namespace
 
 TEST_CASE("geojson: collections, features and geometries give their polygons and lines") {
-  const auto all = import_geojson(
-      "a", R"({"type":"FeatureCollection","name":"\u00e9 \"x\"","features":[)" +
-               feature(kSquare, R"({"max_error":2.5,"more":[true,{"a":null}]})") + "," +
-               feature(R"({"type":"GeometryCollection","geometries":[{"type":"MultiLineString",
+  const auto all =
+      import_geojson(
+          "a", R"({"type":"FeatureCollection","name":"\u00e9 \"x\"","features":[)" +
+                   feature(kSquare, R"({"max_error":2.5,"more":[true,{"a":null}]})") + "," +
+                   feature(R"({"type":"GeometryCollection","geometries":[{"type":"MultiLineString",
                           "coordinates":[[[1,2,9],[3e0,-4.25]],[[0,0],[1,1]]]},)" +
-                           kSquare + "]}",
-                       "{\"max_error\":null}") +
-               "," + feature("null", "null") + "]}");
+                               kSquare + "]}",
+                           "{\"max_error\":null}") +
+                   "," + feature("null", "null") + "]}")
+          .features;
   REQUIRE(all.size() == 3);
   CHECK(all[0].polygons.size() == 1);
   CHECK(to_string(*all[0].max_error) == "2.5");
@@ -51,7 +53,7 @@ TEST_CASE("geojson: collections, features and geometries give their polygons and
   CHECK(all[1].has_max_error);
   CHECK(!all[1].max_error);
   CHECK(!all[2].has_max_error);
-  CHECK(import_geojson("a", kSquare)[0].polygons[0][0].size() == 4);
+  CHECK(import_geojson("a", kSquare).features[0].polygons[0][0].size() == 4);
 }
 
 TEST_CASE("geojson: what is none is refused with its line") {
@@ -77,6 +79,47 @@ TEST_CASE("geojson: what is none is refused with its line") {
   for (const std::string& text : broken) CHECK_MESSAGE(message_of(text) != "", text);
   for (std::size_t size = 0; size < kSquare.size(); ++size) {
     CHECK(message_of(kSquare.substr(0, size)) != "");
+  }
+}
+
+TEST_CASE("geojson: a byte order mark, names in capitals and other programs' properties are read") {
+  const FeatureFile file =
+      import_geojson("a", "\xEF\xBB\xBF" + feature(R"({"type":"Point","coordinates":[1,2]})",
+                                                   R"({"AREA":1e300,"id":12345678901234567890123,
+                                                       "share":NaN,"least":-Infinity,
+                                                       "Radius":7,"HEIGHT":3,"height":2})"));
+  REQUIRE(file.features.size() == 1);
+  REQUIRE(file.features[0].radius);
+  CHECK(to_string(*file.features[0].radius) == "7");
+  CHECK(to_string(*file.features[0].height) == "2");
+  for (const char* const number : {"1e300", "NaN", "12345678901234567890123"}) {
+    const std::string point = std::string("[") + number + ",2]";
+    CHECK(message_of(R"({"type":"Point","coordinates":)" + point + "}") ==
+          "a.geojson:1: a coordinate is not a number in range");
+    CHECK(message_of(feature(kSquare, std::string("{\"MAX_ERROR\":") + number + "}")) ==
+          "a.geojson:1: max_error is not a number from 0 up, nor null");
+  }
+}
+
+TEST_CASE("geojson: the member crs states the system") {
+  const auto code_of = [](const std::string& crs) {
+    return import_geojson("a", R"({"type":"FeatureCollection","features":[],"crs":)" + crs + "}")
+        .stated.horizontal_epsg;
+  };
+  const auto named = [&](const std::string& name) {
+    return code_of(R"({"type":"name","properties":{"name":")" + name + "\"}}");
+  };
+  CHECK(named("urn:ogc:def:crs:EPSG::25832") == 25832);
+  CHECK(named("urn:ogc:def:crs:EPSG:9.1:2056") == 2056);
+  CHECK(named("EPSG:3857") == 3857);
+  CHECK(named("http://www.opengis.net/def/crs/EPSG/0/4326") == 4326);
+  CHECK(named("urn:ogc:def:crs:OGC:1.3:CRS84") == 4326);
+  for (const char* const other : {"IGNF:25832", "EPSG:", "EPSG:x", "EPSG:99999999999", ""}) {
+    CHECK_MESSAGE(named(other) == 0, other);
+  }
+  for (const char* const other :
+       {"null", "5", "{}", R"({"properties":5})", R"({"properties":{"name":5}})"}) {
+    CHECK_MESSAGE(code_of(other) == 0, other);
   }
 }
 

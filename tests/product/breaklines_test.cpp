@@ -656,6 +656,53 @@ TEST_CASE("breaklines: GeoJSON and text say the same lines") {
   }
 }
 
+TEST_CASE("breaklines: a header that states other units or depths is refused, by each command") {
+  const Session session;
+  write_terrain(session, 10);
+  session.write("good.csv", "X [m],Y [m],Z [m],line\n1050,2050,\n1500,2300,\n");
+  for (const char* output : {"o.mtin", "o.mtp"}) {
+    expect_run(session, join({"encode t.asc --units metre --max-error 40 --breaklines good.csv -o ",
+                              output}));
+  }
+  const auto expect_refused = [&](const std::string& header, const std::string& reason) {
+    session.write("l.csv", header + "\n1050,2050,230\n1500,2300,230\n");
+    for (const char* command :
+         {"encode t.asc --max-error 40 -o a.mtin", "encode t.asc --max-error 40 -o a.mtp",
+          "update o.mtp t.asc -o b.mtp", "verify o.mtin t.asc", "plan t.asc --max-error 40"}) {
+      const std::string message =
+          session.failure(std::string(command) + " --units metre --breaklines l.csv");
+      CHECK_MESSAGE(contains(message, "l.csv: " + reason), command);
+    }
+  };
+  expect_refused("x,y,z_ft", "heights are in the unit foot, and those of the terrain in metre");
+  expect_refused("x,y,Z [cm]", "heights are in the unit centimetre");
+  expect_refused("x [km],y [km],z", "x and y are in the unit kilometre");
+  expect_refused("lon,lat,z", "x and y are in the unit degree");
+  expect_refused("x,y,depth", "the lines have depths");
+}
+
+TEST_CASE("breaklines: decimal commas are refused, and quotes around fields are none of them") {
+  const Session session;
+  write_terrain(session, 10);
+  const auto outcome = [&](const std::string& lines) {
+    session.write("l.csv", lines);
+    return session.run("encode t.asc --units metre --max-error 40 -o o.mtin --breaklines l.csv")
+        .err;
+  };
+  CHECK(outcome(R"("x","y","line")"
+                "\n"
+                R"("1050","2050","a")"
+                "\n"
+                R"("1500","2300","a")")
+            .empty());
+  CHECK(outcome("1050,2050,,1.a\n1500,2300,,1.a\n").empty());
+  for (const char* const lines :
+       {"1050,05,2050,03\n1500,07,2300,02\n", "x,y\n1050,5,2050,3\n1500,7,2300,2\n",
+        "1050,5;2050,3\n1500,7;2300,2\n", "1050,5 2050,3\n1500,7 2300,2\n"}) {
+    CHECK_MESSAGE(contains(outcome(lines), "l.csv:"), lines);
+  }
+}
+
 TEST_CASE("breaklines: what cannot be kept is refused") {
   const Session session;
   write_terrain(session, 10);

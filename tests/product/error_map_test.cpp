@@ -397,6 +397,57 @@ TEST_CASE("error map: in C++ a raster of bounds makes the bytes that a file of i
   CHECK(made.report.max_bound_ratio != "");
 }
 
+TEST_CASE("features: a file of another system, or of places that there are not, is refused") {
+  const Session session;
+  write_terrain(session);
+  const auto write = [&](const std::string& crs, const std::string& ring) {
+    session.write("f.geojson", R"({"type": "FeatureCollection", )" + crs +
+                                   R"("features": [{"type": "Feature", "properties": {"top": 9,
+        "max_error": 2}, "geometry": {"type": "Polygon", "coordinates": [[)" +
+                                   ring + "]]}}]}");
+  };
+  const auto expect_refused = [&](const std::string& units, const std::string& reason) {
+    for (const char* option : {"--area", "--error-map", "--obstacles", "--breaklines"}) {
+      for (const char* output : {"a.mtin", "a.mtp"}) {
+        const std::string command = "encode t.asc --max-error 30 " + units + ' ' + option;
+        const std::string message = session.failure(command + " f.geojson -o " + output);
+        CHECK_MESSAGE(contains(message, "f.geojson: " + reason), message);
+      }
+    }
+  };
+  const std::string square = "[1000,2000],[1100,2000],[1100,2100],[1000,2000]";
+  const auto crs = [](const std::string& name) {
+    return R"("crs": {"type": "name", "properties": {"name": ")" + name + "\"}}, ";
+  };
+  write(crs("urn:ogc:def:crs:EPSG::25833"), square);
+  expect_refused("--epsg 25832 --units :metre",
+                 "its coordinate system (urn:ogc:def:crs:EPSG::25833) is not the terrain's");
+  write(crs("urn:ogc:def:crs:OGC:1.3:CRS84"), square);
+  expect_refused("--units metre", "its coordinate system (urn:ogc:def:crs:OGC:1.3:CRS84)");
+  for (const char* name : {"urn:ogc:def:crs:EPSG::25832", "NOBODY:1"}) {
+    write(crs(name), square);
+    expect_runs(
+        session,
+        "encode t.asc --max-error 30 --area f.geojson --epsg 25832 --units :metre -o a.mtin");
+  }
+  session.write("t.asc", grid_of(5, 5, 1, 6, 44, [](int x, int y) { return 10 * x + y; }));
+  write("", "[6,44],[9,44],[9,444],[6,44]");
+  expect_refused("--units degree:metre", "latitude 444 is beyond 90 degrees");
+  write("", "[44,6],[44,9],[47000,9],[44,6]");
+  expect_refused("--epsg 4326:5773", "longitude 47000 is beyond 360 degrees");
+}
+
+TEST_CASE("options: the empty name of a file is refused, and not taken for none") {
+  const Session session;
+  write_terrain(session);
+  for (const char* option : {"--area", "--error-map", "--obstacles", "--breaklines", "--route",
+                             "--resume", "--cells", "--water-level 1 --water-mask", "-o"}) {
+    const auto result = session.run(std::string("encode t.asc --units metre --max-error 3 ") +
+                                    "--route-width 5 -o a.mtp " + option + " \"\"");
+    CHECK_MESSAGE(result.code == 2, option);
+  }
+}
+
 TEST_CASE("area: posts in polygons and on their borders stay, and all others are void") {
   const Session session;
   write_terrain(session);

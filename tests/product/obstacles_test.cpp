@@ -248,6 +248,14 @@ TEST_CASE("obstacles: those in voids and beyond the terrain are counted, and the
   }
 }
 
+TEST_CASE("obstacles: properties in capitals are those in small letters") {
+  const Session session;
+  write_ground(session);
+  encode(session, collection({feature(R"("top": 300, "radius": 20)", kTower)}), "", "small.mtin");
+  encode(session, collection({feature(R"("TOP": 300, "Radius": 20)", kTower)}), "", "large.mtin");
+  CHECK(session.read("small.mtin") == session.read("large.mtin"));
+}
+
 TEST_CASE("obstacles: what cannot be understood is refused, with the file's name") {
   const Session session;
   write_ground(session);
