@@ -24,6 +24,9 @@ constexpr const char* kTerrainFiles =
 
 // Other names of standard output are "-" for all that follows, unless a suffix asks for a format.
 std::string plain_output(const std::string& path) {
+  if (path.empty()) {
+    throw CLI::ValidationError("--output", "'' is not allowed; use the name of a file, or -");
+  }
   const bool is_plain = std::filesystem::u8path(path).extension().empty();
   return is_plain && descriptor_named(path) == kStandardOutput ? "-" : path;
 }
@@ -165,6 +168,14 @@ CLI::Option* add_read(CLI::App& command, const std::string& definition,
 CLI::Option* add_text(CLI::App& command, const std::string& definition, std::string& text,
                       const std::string& description) {
   const auto [name, value] = split(definition);
+  if (value == kFile) {
+    const auto read = [&text](const std::string& given) {
+      text = given;
+      return !given.empty();
+    };
+    return add_read(command, definition, read, "the name of a file", description)
+        ->default_str("none");
+  }
   return command.add_option(name, text, description)->type_name(value)->default_str("none");
 }
 

@@ -179,6 +179,13 @@ NamedOption text(const char* name, std::string Options::*member,
   return option;
 }
 
+NamedOption file(const char* name, std::string Options::*member) {
+  NamedOption option = text(name, member);
+  option.is_file = true;
+  option.wanted = "the name of a file";
+  return option;
+}
+
 NamedOption decimal(const char* name, std::string Options::*member) {
   const auto is_decimal = [](const std::string& value) {
     const std::optional<Decimal> number = parse_decimal(value);
@@ -214,13 +221,13 @@ constexpr const char* kSurfaces[] = {"unknown", "ground", "top", "bed", "geoid",
 Table surface_options() {
   return {
       decimal("max_error", &Options::max_error),
-      text("error_map", &Options::error_map),
-      text("area", &Options::area),
-      text("route", &Options::route),
+      file("error_map", &Options::error_map),
+      file("area", &Options::area),
+      file("route", &Options::route),
       decimal("route_width", &Options::route_width),
       decimal("route_edge_error", &Options::route_edge_error),
-      text("breaklines", &Options::breaklines),
-      text("obstacles", &Options::obstacles),
+      file("breaklines", &Options::breaklines),
+      file("obstacles", &Options::obstacles),
       number("max_vertices", &Options::max_vertices, 3, kMaxVertices),
       number("max_bytes", &Options::max_bytes, 1, UINT32_MAX),
       flag("never_below", &Options::never_below),
@@ -342,7 +349,8 @@ bool set(const NamedOption& option, Options& options, const std::string& value) 
   }
   if (option.text != nullptr) {
     options.*option.text = value;
-    return value.empty() || option.is_allowed == nullptr || option.is_allowed(value);
+    return value.empty() ? !option.is_file
+                         : option.is_allowed == nullptr || option.is_allowed(value);
   }
   for (uint32_t i = 0; i < option.words.size(); ++i) {
     if (value != option.words[i]) continue;

@@ -47,6 +47,7 @@ struct NamedOption {
 
   // Whether a text is allowed, if it is not empty; null: every text is.
   bool (*is_allowed)(const std::string& value) = nullptr;
+  bool is_file = false;              // a text that names a file, which an empty one does not
   const char* wanted = nullptr;      // what is allowed
   uint32_t least = 0, most = 0;      // of a number that is not 0, which selects the default
   std::vector<std::string> words{};  // of a choice, in the order of its enumerators

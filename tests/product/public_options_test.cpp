@@ -127,6 +127,7 @@ TEST_CASE("options as text: each member of Options, and each of its values") {
 
 TEST_CASE("options as text: what is no option, and what is none of its values") {
   CHECK(error_of("max_eror", "1") == "there is no option max_eror");
+  CHECK(error_of("area", "") == "area: '' is not allowed; use the name of a file");
   CHECK(error_of("effort", "Fast") == "effort: 'Fast' is not allowed; use fast, normal or best");
   CHECK(error_of("never_below", "1") == "never_below: '1' is not allowed; use true or false");
   for (const std::string text : {"", "-1", "1 ", "4294967296", "99999999999999999999", "1e3"}) {

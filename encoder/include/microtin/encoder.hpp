@@ -227,7 +227,8 @@ struct Options {
 
 /* Sets an option by the name of its member, for callers whose options are texts: "max_error" to
  * "2.5", "never_below" to "true" or "false", "effort" to "fast". Throws std::runtime_error if there
- * is no such option, or if the text is none of its values. */
+ * is no such option, or if the text is none of its values. An empty text means "not given",
+ * and is refused for the name of a file. */
 void set_option(Options& options, const std::string& name, const std::string& value);
 
 /* --- Results --- */
