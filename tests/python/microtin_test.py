@@ -79,6 +79,36 @@ class Streams(unittest.TestCase):
         with self.assertRaisesRegex(microtin.Error, "beyond 2.53"):
             microtin.encode(heights, nodata=-9999)
 
+    def test_whole_numbers_are_compared_as_such(self):
+        heights = numpy.arange(12, dtype=numpy.int64).reshape(3, 4)
+        heights[1, 2] = 2**53 + 1
+        for marked in ({"nodata": 2**53 + 1}, {"nodata": numpy.int64(2**53 + 1)}):
+            back, _ = microtin.decode(microtin.encode(heights, **marked)).raster()
+            numpy.testing.assert_array_equal(numpy.isnan(back), heights > 99)
+        masked = numpy.ma.masked_greater(heights, 99)
+        back, _ = microtin.decode(microtin.encode(masked)).raster()
+        numpy.testing.assert_array_equal(numpy.isnan(back), heights > 99)
+        for nodata in (None, 2**53, float(2**53)):
+            with self.assertRaisesRegex(microtin.Error, "beyond 2.53"):
+                microtin.encode(heights, nodata=nodata)
+
+    def test_the_order_of_bytes_makes_no_difference(self):
+        heights = hills()
+        heights[3, 4] = -9999.99
+        for number in ("f4", "f8"):
+            made = {bytes(microtin.encode(heights.astype(order + number), nodata=-9999.99)) for order in "<>"}
+            self.assertEqual(len(made), 1)
+
+    def test_floats_of_32_bits_stand_for_their_decimals(self):
+        narrow = numpy.array(TRANSFORM, numpy.float32) / 10
+        expected = microtin.encode(hills(), 0.1, transform=[float(str(number)) for number in narrow])
+        found = microtin.encode(hills(), numpy.float32(0.1), transform=narrow)
+        self.assertEqual(bytes(found), bytes(expected))
+        points = numpy.column_stack((COLUMN.ravel() / 10, ROW.ravel() / 10, hills().ravel()))[::7]
+        self.assertEqual(
+            bytes(microtin.encode_points(points.astype(numpy.float32))), bytes(microtin.encode_points(points))
+        )
+
     def test_heights_are_those_of_the_triangles(self):
         tin = microtin.decode(microtin.encode(hills(), max_error=2))
         x, y, z = tin.vertices.T
@@ -563,6 +593,29 @@ class Refusals(unittest.TestCase):
         self.refused("row 1, column 0", [[1.0, 2.0], [float("inf"), 4.0]])
         self.refused("beyond 2\\^53", numpy.array([[0, 2**60], [0, 0]]))
         self.refused("six numbers", [[1, 2], [3, 4]], transform=(0, 1))
+
+    def test_points(self):
+        points = numpy.array([[0.0, 0, 1], [9, 0, 2], [0, 9, 3], [9, 9, 4]])
+        for given, sentence in (
+            (numpy.ma.masked_equal(points, 4), "masked; leave these out"),
+            (points > 1, "not bool"),
+            (points * 1j, "not complex128"),
+            ((points * 2.0**51).astype(numpy.int64), "a coordinate is beyond 2\\^53"),
+        ):
+            with self.assertRaisesRegex(microtin.Error, sentence):
+                microtin.encode_points(given)
+
+    def test_empty_texts_and_zeros(self):
+        array = [[1.0, 2.0], [3.0, 4.0]]
+        for option in ("area", "error_map", "obstacles", "breaklines", "route"):
+            self.refused("'' is not the name of a file", array, max_error=1, **{option: ""})
+        self.refused("'' is not a number", array, max_error="")
+        self.refused("has a character 0", array, source_name="a\0b")
+        self.refused("has a character 0", array, max_error=1, area="a.geojson\0")
+        with self.assertRaisesRegex(microtin.Error, "has a character 0"):
+            microtin.decode("a.mtin\0")
+        with self.assertRaisesRegex(microtin.Error, "is not the name of a file"):
+            microtin.encode("")
 
     def test_options(self):
         array = [[1.0, 2.0], [3.0, 4.0]]

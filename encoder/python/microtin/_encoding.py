@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from . import _library
 from ._library import Error, library
-from ._options import Crs, Files, Number, Path, options_of
+from ._options import Crs, Files, Number, Path, options_of, path_of, text_of
 from ._results import Report, Shard, Stream, report_of
 from ._sources import Source, paths_of, source_from_files, source_from_points, source_of
 
@@ -110,7 +110,7 @@ def encode_pack(
     else:
         made = source_of(array, transform, crs, nodata, options.get("error_map"))
     with made as terrain, caller:
-        library.microtin_encode_pack(terrain.pointer, filled, os.fsencode(path), report)
+        library.microtin_encode_pack(terrain.pointer, filled, path_of(path), report)
     told = report_of(report)
     _warn(told, crs, options)
     return told
@@ -155,17 +155,17 @@ def encode_shard(
     those of `plan_shards`. Needs the memory of a few tiles, besides what is kept of the files."""
     filled, caller = options_of(max_error, crs, tile_vertices=tile_vertices, **options)
     size, z_step, first, last = shard
-    part = _library.Shard(tile_size=size, z_step=z_step.encode(), first_tile=first, last_tile=last)
+    part = _library.Shard(tile_size=size, z_step=text_of(z_step), first_tile=first, last_tile=last)
     with source_from_files(files) as terrain, caller:
-        library.microtin_encode_shard(terrain.pointer, filled, part, os.fsencode(path), None)
+        library.microtin_encode_shard(terrain.pointer, filled, part, path_of(path), None)
 
 
 def merge_packs(parts: Sequence[Path], path: Path) -> Report:
     """Joins the files of all shards, in any order, to the bytes that `encode_pack` writes; or joins packs of one plan. The
     report has no samples."""
-    names = [os.fsencode(part) for part in parts]
+    names = [path_of(part) for part in parts]
     report = _library.Report()
-    library.microtin_merge_packs((ctypes.c_char_p * len(names))(*names), len(names), os.fsencode(path), report)
+    library.microtin_merge_packs((ctypes.c_char_p * len(names))(*names), len(names), path_of(path), report)
     return report_of(report)
 
 

@@ -112,21 +112,21 @@ def options_of(
         coding=_CODINGS[coding],
         bound_at=_BOUND_AT[bound_at],
         duplicates=_DUPLICATES[duplicates],
-        units=units.encode(),
+        units=text_of(units),
         depths=depths,
         surface=SURFACES[surface],
         horizontal_epsg=epsg_of(crs) or 0,
-        source_name=source_name.encode(),
-        date=date.encode(),
-        lineage=lineage.encode(),
-        attribution=attribution.encode(),
-        license=license.encode(),
-        valid=valid.encode(),
+        source_name=text_of(source_name),
+        date=text_of(date),
+        lineage=text_of(lineage),
+        attribution=text_of(attribution),
+        license=text_of(license),
+        valid=text_of(valid),
         epoch=decimal_of(epoch),
-        source_accuracy=source_accuracy.encode(),
+        source_accuracy=text_of(source_accuracy),
         digest=digest,
         phases=phases,
-        error_map=os.fsencode(error_map) if isinstance(error_map, (str, bytes, os.PathLike)) else None,
+        error_map=path_of(error_map) if isinstance(error_map, (str, bytes, os.PathLike)) else None,
         area=_file(area),
         route=_file(route),
         route_width=decimal_of(route_width),
@@ -140,13 +140,35 @@ def options_of(
 
 
 def decimal_of(number: Optional[Number]) -> Optional[bytes]:
+    """The shortest decimal of a float of any size; None for None."""
     if number is None:
         return None
-    return (repr(float(number)) if isinstance(number, (float, numpy.floating)) else str(number)).encode()
+    if isinstance(number, str) and not number:
+        raise Error("'' is not a number; leave the option out")
+    return text_of(str(number))
+
+
+def text_of(text: str) -> bytes:
+    """A text for C, where the character 0 would end it."""
+    return _without_zero(text.encode())
+
+
+def path_of(path: Union[Path, bytes]) -> bytes:
+    """The name of a file for C."""
+    name = _without_zero(os.fsencode(path))
+    if not name:
+        raise Error("'' is not the name of a file")
+    return name
+
+
+def _without_zero(text: bytes) -> bytes:
+    if b"\0" in text:
+        raise Error(f"{text!r} has a character 0; leave it out")
+    return text
 
 
 def _file(path: Optional[Path]) -> Optional[bytes]:
-    return None if path is None else os.fsencode(path)
+    return None if path is None else path_of(path)
 
 
 def epsg_of(crs: Optional[Crs]) -> Optional[int]:
@@ -173,4 +195,4 @@ def wkt_of(crs: Optional[Crs]) -> Optional[bytes]:
     text = crs if isinstance(crs, str) else str(crs.to_wkt())
     if not _WELL_KNOWN_TEXT.fullmatch(text):
         raise Error(f"{text[:40]!r} is neither EPSG:CODE nor well-known text")
-    return text.encode()
+    return text_of(text)

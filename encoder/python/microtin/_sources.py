@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from . import _library
 from ._library import Error, library
-from ._options import Crs, ErrorMap, Files, Path, epsg_of, wkt_of
+from ._options import Crs, ErrorMap, Files, Path, epsg_of, path_of, wkt_of
 
 
 class Source:
@@ -29,40 +29,68 @@ class Source:
         library.microtin_source_free(self.pointer)
 
 
+def _float(number: Any) -> float:
+    """The number that a float of any size stands for: 0.1 of numpy.float32(0.1)."""
+    return float(str(number)) if isinstance(number, numpy.floating) else float(number)
+
+
 def _transform_of(transform: Optional[Sequence[float]], rows: int) -> Tuple[float, ...]:
     if transform is None:
         return (-0.5, 1, 0, rows - 0.5, 0, -1)
-    if hasattr(transform, "to_gdal"):
-        return tuple(transform.to_gdal())
-    if len(transform) != 6:
+    numbers: Sequence[Any] = transform.to_gdal() if hasattr(transform, "to_gdal") else transform
+    if len(numbers) != 6:
         raise Error("a transform has six numbers")
-    return tuple(transform)
+    return tuple(_float(number) for number in numbers)
+
+
+def _mask_of(array: ArrayLike) -> Any:
+    """A copy of the mask of a masked array, in its shape; all False for others."""
+    mask: Any = array.mask if isinstance(array, numpy.ma.MaskedArray) else False
+    return numpy.broadcast_to(mask, numpy.shape(array)).copy()
+
+
+def _expect_exact(numbers: Any, skipped: Any, what: str) -> None:
+    """Raises Error if floats of 64 bits cannot hold one of these integers."""
+    if numbers.dtype.kind in "iu" and numbers.dtype.itemsize == 8:
+        beyond = numbers > 2**53
+        if numbers.dtype.kind == "i":
+            beyond |= numbers < -(2**53)
+        if (beyond & ~skipped).any():
+            raise Error(f"{what} is beyond 2^53; use floats, or a larger unit")
+
+
+def _declared_void(heights: Any, nodata: float) -> Any:
+    """Where integers equal nodata, compared as integers."""
+    if isinstance(nodata, (int, numpy.integer)):
+        return heights == int(nodata)
+    return heights == int(float(nodata)) if float(nodata).is_integer() else numpy.zeros(heights.shape, bool)
 
 
 def _raster_of(
     array: ArrayLike, transform: Optional[Sequence[float]], crs: Optional[Crs], nodata: Optional[float]
 ) -> _library.Raster:
-    mask = numpy.broadcast_to(array.mask, array.shape) if isinstance(array, numpy.ma.MaskedArray) else None
-    heights = numpy.asarray(array)
+    void, heights = _mask_of(array), numpy.asarray(array)
     if heights.ndim != 2:
         raise Error(f"a raster has two dimensions, not {heights.ndim}")
-    kind = numpy.float32 if heights.dtype == numpy.float32 else numpy.float64
-    if heights.dtype.kind in "iu":
-        beyond = numpy.abs(heights.astype(numpy.float64)) > 2**53
-        if (beyond if nodata is None else beyond & (heights != nodata)).any():
-            raise Error("a height is beyond 2^53; use floats, or a larger unit")
-    if heights.dtype.kind not in "iuf" or heights.dtype.itemsize > 8:
+    kind, size = heights.dtype.kind, heights.dtype.itemsize
+    if kind not in "iuf" or size > 8:
         raise Error(f"heights are integers or floats of up to 64 bits, not {heights.dtype}")
-    if nodata is not None and heights.dtype == numpy.float16:
-        nodata = float(numpy.float16(nodata))  # the library compares in 32 and 64 bits
-    if mask is not None and mask.any():
-        heights = numpy.where(mask, numpy.nan, heights)
-    heights = numpy.ascontiguousarray(heights, kind)
+    if nodata is not None and kind != "f":
+        void |= _declared_void(heights, nodata)
+        nodata = None
+    _expect_exact(heights, void, "a height")
+    if nodata is not None:
+        # The library compares in 32 and 64 bits.
+        nodata = float(numpy.float16(nodata)) if size == 2 else _float(nodata)
+    number: Any = numpy.float32 if kind == "f" and size == 4 else numpy.float64
+    heights = numpy.ascontiguousarray(heights, number)
+    if void.any():
+        heights = numpy.where(void, numpy.array(numpy.nan, number), heights)
     raster = _library.Raster(columns=heights.shape[1], rows=heights.shape[0], wkt=wkt_of(crs))
     raster.transform[:] = _transform_of(transform, heights.shape[0])
     if nodata is not None:
-        raster.no_data = ctypes.pointer(ctypes.c_double(float(nodata)))
-    if kind == numpy.float32:
+        raster.no_data = ctypes.pointer(ctypes.c_double(nodata))
+    if number == numpy.float32:
         raster.float_heights = heights.ctypes.data_as(ctypes.POINTER(ctypes.c_float))
     else:
         raster.heights = heights.ctypes.data_as(_library.Doubles)
@@ -82,7 +110,7 @@ def source_from_files(files: Files) -> Source:
     paths = paths_of(files)
     if paths is None:
         raise Error("files are a path, or a list of paths")
-    names = [os.fsencode(path) for path in paths]
+    names = [path_of(path) for path in paths]
     return Source(library.microtin_source_from_files, (ctypes.c_char_p * len(names))(*names), len(names))
 
 
@@ -125,9 +153,18 @@ def _source_from_array(
 def source_from_points(points: ArrayLike, crs: Optional[Crs], error_map: Optional[ErrorMap]) -> Source:
     if error_map is not None and not isinstance(error_map, (str, bytes, os.PathLike)):
         raise Error("error_map: points take the path of a map, not an array")
-    rows = numpy.ascontiguousarray(points, numpy.float64)
+    rows = numpy.asarray(points)
     if rows.ndim != 2 or rows.shape[1] != 3:
         raise Error("points are rows of x, y and height")
+    if rows.dtype.kind in "bcmMV":
+        raise Error(f"points are integers or floats, not {rows.dtype}")
+    masked = _mask_of(points)
+    if masked.any():
+        raise Error("points are masked; leave these out: points[~points.mask.any(axis=1)]")
+    _expect_exact(rows, masked, "a coordinate")
+    if rows.dtype.kind == "f" and rows.dtype.itemsize == 4:
+        rows = rows.astype("U32")  # the shortest decimals
+    rows = numpy.ascontiguousarray(rows, numpy.float64)
     content = _library.Points(
         count=len(rows), coordinates=rows.ctypes.data_as(_library.Doubles), wkt=wkt_of(crs)
     )

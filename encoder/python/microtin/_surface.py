@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _library
 from ._library import Error, library
-from ._options import SURFACES, Number, Path, decimal_of
+from ._options import SURFACES, Number, Path, decimal_of, path_of
 from ._results import HeightBounds, LineOfSight, Profile, Tile, number_of
 
 UNITS = {0: None, 1: "metre", 2: "degree", 3: "foot", 4: "US survey foot"}
@@ -59,7 +59,7 @@ class Surface:
             data = bytes(source)
             library.microtin_surface_from_bytes(data, len(data), b"bytes", surface)
         else:
-            library.microtin_surface_from_file(os.fsencode(source), surface)
+            library.microtin_surface_from_file(path_of(source), surface)
         weakref.finalize(self, library.microtin_surface_free, surface)
         self._surface = surface
         self._lock = threading.Lock()
