@@ -75,14 +75,10 @@ void add_decode(CLI::App& app, Action& action) {
       add_decimal(command, "--cell DISTANCE", request->cell,
                   "Set the distance of posts, in the terrain's unit; in metres for .DAT files")
           ->default_str("the source's posts; for points the lattice's positions");
-  const auto read = [request](const std::string& text) {
-    request->extent = parse_extent(text);
-    return request->extent.has_value();
-  };
-  add_read(command, "--extent WEST,SOUTH,EAST,NORTH", read,
-           "WEST,SOUTH,EAST,NORTH, such as 7.5,43,8,43.5",
-           "Write the posts in this rectangle of the terrain's coordinates; with --cell they begin "
-           "at its south-west corner")
+  add_extent(
+      command, request->extent,
+      "Write the posts in this rectangle of the terrain's coordinates; with --cell they begin "
+      "at its south-west corner")
       ->default_str("the whole terrain");
   CLI::Option* const like =
       add_text(command, "--like FILE", request->like, "Write the posts of this raster")

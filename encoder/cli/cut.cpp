@@ -41,13 +41,8 @@ void add_cut(CLI::App& app, Action& action) {
   command.add_option("PACK", request->input, "A pack (.mtp)")->required()->type_name(kFile);
   begin_group(command, kOptions);
   add_output(command, request->output, "Write this pack (.mtp); - is standard output");
-  const auto read = [request](const std::string& text) {
-    request->extent = parse_extent(text);
-    return request->extent.has_value();
-  };
-  add_read(command, "--extent WEST,SOUTH,EAST,NORTH", read,
-           "WEST,SOUTH,EAST,NORTH, such as 7.5,43,8,43.5",
-           "Take the tiles that have a part of this rectangle of the pack's coordinates")
+  add_extent(command, request->extent,
+             "Take the tiles that have a part of this rectangle of the pack's coordinates")
       ->required();
   command.callback([request, &action] {
     action = [request] { run_cut(request->input, *request->extent, request->output); };

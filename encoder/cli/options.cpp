@@ -205,6 +205,16 @@ CLI::Option* add_decimal(CLI::App& command, const std::string& definition,
   return add_read(command, definition, read, "a decimal number from 0 up", description);
 }
 
+CLI::Option* add_extent(CLI::App& command, std::optional<Extent>& extent,
+                        const std::string& description) {
+  const auto read = [&extent](const std::string& text) {
+    extent = parse_extent(text);
+    return extent.has_value();
+  };
+  return add_read(command, "--extent WEST,SOUTH,EAST,NORTH", read,
+                  "WEST,SOUTH,EAST,NORTH, such as 7.5,43,8,43.5", description);
+}
+
 void add_indirect([[maybe_unused]] CLI::App& command, [[maybe_unused]] Preparation& preparation) {
 #ifdef MICROTIN_WITH_GDAL
   command.add_flag_callback(

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "encoder/export/grid.hpp"
 #include "encoder/import/prepared_terrain.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/product/public_options.hpp"
@@ -81,6 +82,10 @@ CLI::Option* add_height(CLI::App& command, const std::string& definition,
 // A decimal number from 0 up.
 CLI::Option* add_decimal(CLI::App& command, const std::string& definition,
                          std::optional<Decimal>& value, const std::string& description);
+
+// A rectangle, --extent WEST,SOUTH,EAST,NORTH.
+CLI::Option* add_extent(CLI::App& command, std::optional<Extent>& extent,
+                        const std::string& description);
 
 // One of some names for values, of which the help page prints all and the default.
 template <class Value>
