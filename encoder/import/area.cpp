@@ -22,16 +22,10 @@ void Area::add_polygons(const std::string& path, const FeatureFiles& files) {
 
 void Area::add_corridors(const std::string& path, const FeatureFiles& files, Decimal width,
                          Unit unit) {
-  const std::size_t before = polygons_.size();
-  const double half = exact::real(width) / 2;
-  for (const Feature& feature : files.read(path)) {
-    for (const RealLine& line : feature.lines) {
-      std::vector<RealRings> corridor =
-          with_file_context(path, [&] { return corridor_of(line, half, unit); });
-      std::move(corridor.begin(), corridor.end(), std::back_inserter(polygons_));
-    }
-  }
-  if (polygons_.size() == before) throw Error(path + ": has no line; draw the route as one");
+  std::vector<RealRings> corridors =
+      corridors_of(path, files.read(path), exact::real(width) / 2, unit);
+  if (corridors.empty()) throw Error(path + ": has no line; draw the route as one");
+  std::move(corridors.begin(), corridors.end(), std::back_inserter(polygons_));
 }
 
 void Area::cut(Raster& raster) const {

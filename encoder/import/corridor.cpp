@@ -95,6 +95,19 @@ std::vector<RealRings> corridor_of(const RealLine& line, double metres, Unit uni
   return polygons;
 }
 
+std::vector<RealRings> corridors_of(const std::string& path, const std::vector<Feature>& features,
+                                    double metres, Unit unit) {
+  std::vector<RealRings> polygons;
+  for (const Feature& feature : features) {
+    for (const RealLine& line : feature.lines) {
+      std::vector<RealRings> corridor =
+          with_file_context(path, [&] { return corridor_of(line, metres, unit); });
+      std::move(corridor.begin(), corridor.end(), std::back_inserter(polygons));
+    }
+  }
+  return polygons;
+}
+
 namespace {
 
 constexpr int kSteps = 8;
@@ -124,13 +137,7 @@ std::vector<Feature> route_bounds(const std::string& path, const FeatureFiles& f
     feature.has_max_error = true;
     feature.max_error = bound_at(least, edge, step);
     const double metres = exact::real(width) / 2 * (step + 1) / kSteps;
-    for (const Feature& one : lines) {
-      for (const RealLine& line : one.lines) {
-        std::vector<RealRings> corridor =
-            with_file_context(path, [&] { return corridor_of(line, metres, unit); });
-        std::move(corridor.begin(), corridor.end(), std::back_inserter(feature.polygons));
-      }
-    }
+    feature.polygons = corridors_of(path, lines, metres, unit);
   }
   if (bounds[0].polygons.empty()) throw Error(path + ": has no line; draw the route as one");
   return bounds;

@@ -22,6 +22,10 @@ namespace microtin::importing {
 // latitude + vertices) polygons.
 std::vector<RealRings> corridor_of(const RealLine& line, double metres, Unit unit);
 
+// The polygons of corridor_of for all lines of features. Throws Error naming the file, `path`.
+std::vector<RealRings> corridors_of(const std::string& path, const std::vector<Feature>& features,
+                                    double metres, Unit unit);
+
 // Polygons around the lines of a file, each with a bound: from `least` at the lines to
 // `edge` at half of `width` metres from them, in eight steps that are within the straight line
 // between the two. Throws Error naming the file if it has no line, or if `edge` is less.
