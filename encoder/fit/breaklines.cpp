@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdlib>
 #include <optional>
-#include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>

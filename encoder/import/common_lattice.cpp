@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Divides the first raster's cells until every raster's posts have a place.
-#include <algorithm>
 #include <numeric>
 #include <optional>
 

@@ -7,10 +7,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/text.hpp"
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/import/crs.hpp"

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/text.hpp"
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/files/input.hpp"

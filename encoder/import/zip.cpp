@@ -2,7 +2,6 @@
 // SRTM tiles as they are handed out: one .hgt in a zip archive.
 #include <zlib.h>
 
-#include <array>
 #include <new>
 
 #include "encoder/base/text.hpp"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 
 #include "encoder/fit/simplify.hpp"
 #include "encoder/pack/tile.hpp"

@@ -7,7 +7,6 @@
 #include <mutex>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/work.hpp"

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <mutex>
 #include <string>
-#include <utility>
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/work.hpp"

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Looks for damage in a file, and for differences between two packs.
-#include <memory>
-#include <utility>
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/lattice_map.hpp"

@@ -2,8 +2,6 @@
 // Decodes streams section by section, and compares what is there with the header.
 #include "encoder/product/phases.hpp"
 
-#include <algorithm>
-
 #include "encoder/base/error.hpp"
 #include "encoder/stream/decoded_terrain.hpp"
 #include "encoder/stream/header.hpp"

@@ -3,7 +3,6 @@
 #include "microtin/surface.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>

@@ -3,7 +3,6 @@
 #include "encoder/stream/decoded_terrain.hpp"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 #include "encoder/base/error.hpp"

@@ -6,7 +6,6 @@
 #include <deque>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "encoder/base/error.hpp"
 #include "encoder/stream/header.hpp"

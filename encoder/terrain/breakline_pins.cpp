@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <utility>
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/wide.hpp"

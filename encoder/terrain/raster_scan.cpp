@@ -3,7 +3,6 @@
 #include "encoder/terrain/raster_scan.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
