@@ -41,8 +41,8 @@ void add_cut(CLI::App& app, Action& action) {
   command.add_option("PACK", request->input, "A pack (.mtp)")->required()->type_name(kFile);
   begin_group(command, kOptions);
   add_output(command, request->output, "Write this pack (.mtp); - is standard output");
-  add_extent(command, request->extent,
-             "Take the tiles that have a part of this rectangle of the pack's coordinates")
+  add_rectangle(command, request->extent,
+                "Take the tiles that have a part of this rectangle of the pack's coordinates")
       ->required();
   command.callback([request, &action] {
     action = [request] { run_cut(request->input, *request->extent, request->output); };

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The commands decode and embed: streams and packs as files of other programs.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/text.hpp"
 #include "encoder/cli/commands.hpp"
+#include "encoder/cli/options.hpp"
+#include "encoder/cli/pages.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/export/autopilot.hpp"
@@ -23,6 +28,17 @@ namespace microtin::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct DecodeRequest {
+  std::string input;
+  std::string output;
+  bool lattice = false;          // integers instead of real coordinates
+  bool force = false;            // write more than 1 GB, read more than a stream's vertices
+  std::optional<Decimal> cell;   // of a grid
+  std::optional<Extent> extent;  // where the grid's posts lie
+  std::string like;              // the raster whose posts the grid has; empty: none
+  Preparation like_preparation;  // how that is read
+};
 
 // --- Grids ---
 
@@ -229,8 +245,6 @@ void decode_to_lines(const DecodeRequest& request) {
   out.commit();
 }
 
-}  // namespace
-
 void run_decode(const DecodeRequest& request) {
   std::vector<std::string> inputs = files_of(request.like, request.like_preparation);
   inputs.push_back(request.input);
@@ -255,8 +269,6 @@ void run_decode(const DecodeRequest& request) {
   decode_to_mesh(request);
 }
 
-namespace {
-
 std::string source_of(const Document& document, const std::string& name) {
   if (const DecodedStream* const stream = document.stream()) {
     return embed(stream->bytes, Embedded::kStream,
@@ -267,8 +279,6 @@ std::string source_of(const Document& document, const std::string& name) {
                document.pack()->header().most_vertices, name);
 }
 
-}  // namespace
-
 void run_embed(const std::string& input, const std::string& output) {
   refuse_overwriting({input}, output);
   const Document document(input);
@@ -276,6 +286,66 @@ void run_embed(const std::string& input, const std::string& output) {
   OutputFile out(output);
   out.write(source_of(document, name));
   out.commit();
+}
+
+}  // namespace
+
+void add_decode(CLI::App& app, Action& action) {
+  auto request = std::make_shared<DecodeRequest>();
+  CLI::App& command =
+      *app.add_subcommand("decode", "Turn a stream or a pack into a mesh, a grid or lines");
+  command.group(kConvert);
+  add_stream(command, request->input);
+  add_output(
+      command, request->output,
+      "Write this file. Meshes: .xyz, .obj, .ply, .glb. A grid: .asc. Marked lines: .geojson. "
+      "A cell for autopilots: N43E007.DAT, N43E007.TER. - is .xyz on standard output");
+  begin_group(command, "Posts of a grid");
+  CLI::Option* const cell =
+      add_decimal(command, "--cell DISTANCE", request->cell,
+                  "Set the distance of posts, in the terrain's unit; in metres for .DAT files")
+          ->default_str("the source's posts; for points the lattice's positions");
+  add_rectangle(
+      command, request->extent,
+      "Write the posts in this rectangle of the terrain's coordinates; with --cell they begin "
+      "at its south-west corner")
+      ->default_str("the whole terrain");
+  CLI::Option* const like =
+      add_text(command, "--like FILE", request->like, "Write the posts of this raster")
+          ->excludes(cell);
+  add_indirect(command, request->like_preparation);
+  begin_group(command, kOptions);
+  command
+      .add_flag("--lattice", request->lattice, "Write lattice coordinates, which are whole numbers")
+      ->excludes(like);
+  command.add_flag(
+      "--force", request->force,
+      "Write a file that can have more than 1 GB, or a mesh of more than 2^24 vertices");
+  command.callback([request, &action] {
+    request->like_preparation.band = 1;  // all bands have the same posts
+    request->like_preparation.asked.reset();
+    if (request->cell && request->cell->mantissa == 0) {
+      throw CLI::ValidationError("--cell", "must be above 0");
+    }
+    action = [request] { run_decode(*request); };
+  });
+}
+
+void add_embed(CLI::App& app, Action& action) {
+  struct Request {
+    std::string input, output;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command =
+      *app.add_subcommand("embed", "Turn a stream or a pack into a C header for firmware");
+  command.group(kConvert);
+  add_stream(command, request->input);
+  add_output(command, request->output);
+  command.footer(
+      "X.h defines the array X_stream and X_VERTICES, the capacity of a mesh for it. For a pack it "
+      "defines X_pack and X_MOST_VERTICES, the capacity of a slot.");
+  command.callback(
+      [request, &action] { action = [request] { run_embed(request->input, request->output); }; });
 }
 
 }  // namespace microtin::cli

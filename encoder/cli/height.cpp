@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The command height: the heights at places that are named, one on the command line or many on
 // standard input.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <memory>
+#include <string>
 
 #include "encoder/cli/commands.hpp"
+#include "encoder/cli/options.hpp"
+#include "encoder/cli/pages.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/files/input.hpp"
@@ -15,6 +20,13 @@
 
 namespace microtin::cli {
 namespace {
+
+struct HeightRequest {
+  std::string input;
+  std::optional<Place> place;  // else those on standard input, one a line
+  bool lattice = false;
+  bool device = false;  // answers as a device does
+};
 
 constexpr int kDecimals = 3;  // of a height: millimetres, where the unit is the metre
 
@@ -100,6 +112,9 @@ std::optional<Place> parse_place(std::string_view text, bool for_device) {
   return Place{numbers[0], numbers[1]};
 }
 
+namespace {
+
+// Prints heights, or words where there are none. Returns the exit code.
 int run_height(const HeightRequest& request) {
   refuse_overwriting({request.input}, "-");
   if (!request.place && request.input == "-") {
@@ -115,6 +130,43 @@ int run_height(const HeightRequest& request) {
     const Answer answer = ask(query, *request.place, request);
     print(answer.text + '\n');
     return code_for(answer.kind);
+  });
+}
+
+}  // namespace
+
+void add_height_command(CLI::App& app, Action& action, int& code) {
+  struct Request : HeightRequest {
+    std::string x, y;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command = *app.add_subcommand("height", "Print the height at one or many positions");
+  command.group(kLookAt);
+  add_stream(command, request->input);
+  CLI::Option* const x = command.add_option(
+      "X", request->x,
+      "Position to the east, in the terrain's unit. Without a position the command reads lines "
+      "\"X Y\" from standard input");
+  CLI::Option* const y =
+      command.add_option("Y", request->y, "Position to the north, in the terrain's unit");
+  x->needs(y);
+  command.add_flag("--lattice", request->lattice,
+                   "Read positions and print heights in lattice steps");
+  command.add_flag("--device", request->device,
+                   "Compute as a device does, at the nearest 1/256 of a lattice step");
+  command.footer(
+      "Where there is no height, the command prints a word: outside, void or damaged. For a "
+      "position on the command line the exit codes are then 5, 6 and 7; 7 also if the file is "
+      "damaged.");
+  command.callback([request, x, &action, &code] {
+    if (x->count() != 0) {
+      request->place = parse_place(request->x + ' ' + request->y, request->device);
+      if (!request->place) {
+        throw CLI::ValidationError("X Y", '\'' + request->x + ' ' + request->y +
+                                              "' is not allowed; use two decimal numbers");
+      }
+    }
+    action = [request, &code] { code = run_height(*request); };
   });
 }
 

@@ -5,6 +5,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/base/text.hpp"
 #include "encoder/cli/commands.hpp"
+#include "encoder/cli/options.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/files/output.hpp"
@@ -352,8 +353,6 @@ std::string text_of_pack(const PackFile& pack, bool as_json) {
   return text_of(report, as_json) + (as_json ? "" : table(tiles));
 }
 
-}  // namespace
-
 void run_info(const std::string& input, bool json) {
   refuse_overwriting({input}, "-");
   Document document(input);
@@ -362,6 +361,12 @@ void run_info(const std::string& input, bool json) {
   } else {
     print(with_file_context(input, [&] { return text_of_stream(*document.stream(), json); }));
   }
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Action& action) {
+  add_look(app, action, "info", "Print what a stream or a pack contains", run_info);
 }
 
 }  // namespace microtin::cli

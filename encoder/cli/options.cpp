@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "encoder/cli/pages.hpp"
@@ -205,8 +206,8 @@ CLI::Option* add_decimal(CLI::App& command, const std::string& definition,
   return add_read(command, definition, read, "a decimal number from 0 up", description);
 }
 
-CLI::Option* add_extent(CLI::App& command, std::optional<Extent>& extent,
-                        const std::string& description) {
+CLI::Option* add_rectangle(CLI::App& command, std::optional<Extent>& extent,
+                           const std::string& description) {
   const auto read = [&extent](const std::string& text) {
     extent = parse_extent(text);
     return extent.has_value();
@@ -345,6 +346,21 @@ void add_preparation(CLI::App& command, Preparation& preparation, encoder::Optio
                      "Choose what positions in none of several files are: unknown, or sea at the "
                      "water level")
       ->needs(level);
+}
+
+void add_look(CLI::App& app, Action& action, const std::string& name,
+              const std::string& description, void (*run)(const std::string&, bool)) {
+  struct Request {
+    std::string input;
+    bool json = false;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command = *app.add_subcommand(name, description);
+  command.group(kLookAt);
+  add_stream(command, request->input);
+  add_json(command, request->json);
+  command.callback(
+      [request, &action, run] { action = [request, run] { run(request->input, request->json); }; });
 }
 
 }  // namespace microtin::cli

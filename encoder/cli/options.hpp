@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "encoder/cli/commands.hpp"
 #include "encoder/export/grid.hpp"
 #include "encoder/import/prepared_terrain.hpp"
 #include "encoder/layers.hpp"
@@ -84,8 +85,8 @@ CLI::Option* add_decimal(CLI::App& command, const std::string& definition,
                          std::optional<Decimal>& value, const std::string& description);
 
 // A rectangle, --extent WEST,SOUTH,EAST,NORTH.
-CLI::Option* add_extent(CLI::App& command, std::optional<Extent>& extent,
-                        const std::string& description);
+CLI::Option* add_rectangle(CLI::App& command, std::optional<Extent>& extent,
+                           const std::string& description);
 
 // One of some names for values, of which the help page prints all and the default.
 template <class Value>
@@ -128,6 +129,10 @@ void add_obstacles(CLI::App& command, encoder::Options& options);
 
 // For encoding, and alike for every comparison with the source.
 void add_preparation(CLI::App& command, Preparation& preparation, encoder::Options& options);
+
+// Defines a command that prints what a stream or a pack is like.
+void add_look(CLI::App& app, Action& action, const std::string& name,
+              const std::string& description, void (*run)(const std::string&, bool));
 
 }  // namespace microtin::cli
 

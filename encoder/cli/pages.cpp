@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "encoder/cli/commands.hpp"
+#include "encoder/cli/report.hpp"
 #include "microtin/encoder.h"
 #include "shared/format.hpp"
 #include "shared/pack_format.hpp"
@@ -250,6 +252,40 @@ std::string reference(const CommandText& program) {
   for (const CommandText& command : program.commands) text += table(command, program);
   return text + "\n## All commands\n\n| option | meaning |\n|---|---|\n" + rows(program.options) +
          "| exit codes | " + cell(program.footer) + " |\n";
+}
+
+namespace {
+
+constexpr const char* kHidden = "";  // the group of commands that --help does not show
+
+// Prints what the command line accepts, for man or a shell.
+void add_document(CLI::App& parent, const std::string& name, const CLI::App& app, Action& action,
+                  std::string (*writer)(const CommandText& program)) {
+  parent.add_subcommand(name)->group(kHidden)->callback(
+      [&app, &action, writer] { action = [&app, writer] { print(writer(describe(app))); }; });
+}
+
+}  // namespace
+
+void add_help(CLI::App& app, Action& action) {
+  CLI::App& help = *app.add_subcommand("help", "Print the page of a command");
+  help.group(kOthers)->require_subcommand(0, 1);
+  help.callback([&app, &help, &action] {
+    if (help.get_subcommands().empty()) action = [&app] { print(help_page(app)); };
+  });
+  for (const CLI::App* const command : app.get_subcommands({})) {
+    help.add_subcommand(command->get_name(), command->get_description())
+        ->group(command->get_group())
+        ->callback([command, &action] { action = [command] { print(help_page(*command)); }; });
+  }
+}
+
+void add_documents(CLI::App& app, Action& action) {
+  add_document(app, "manual", app, action, manual);
+  add_document(app, "reference", app, action, reference);
+  CLI::App& completion = *app.add_subcommand("completion")->group(kHidden)->require_subcommand(1);
+  add_document(completion, "bash", app, action, bash_completion);
+  add_document(completion, "zsh", app, action, zsh_completion);
 }
 
 }  // namespace microtin::cli

@@ -10,12 +10,9 @@
 #include <vector>
 
 namespace CLI {
-class ParseError;
-}
-
-namespace CLI {
 class App;
-}
+class ParseError;
+}  // namespace CLI
 
 namespace microtin::cli {
 

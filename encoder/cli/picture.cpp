@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
 // The commands render and fractal: pictures, and terrains to try the program with.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/text.hpp"
 #include "encoder/cli/commands.hpp"
+#include "encoder/cli/options.hpp"
+#include "encoder/cli/pages.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/files/input.hpp"
 #include "encoder/files/output.hpp"
@@ -20,6 +25,7 @@
 #include "encoder/terrain/fractal.hpp"
 
 namespace microtin::cli {
+namespace {
 
 void run_fractal(const std::string& output, uint32_t size, uint64_t seed) {
   OutputFile out(output);
@@ -30,7 +36,22 @@ void run_fractal(const std::string& output, uint32_t size, uint64_t seed) {
   out.commit();
 }
 
-namespace {
+// The distance from the source is drawn, too, if there is one; it is read as the stream was
+// encoded.
+struct RenderRequest : TerrainRequest {
+  std::string input;
+  std::string output;
+  uint32_t width = 1024;
+  bool mesh = true;    // draw the triangles
+  bool world = false;  // write a world file next to the picture
+  PaletteKind palette = PaletteKind::kLand;
+  bool contours = false;
+  std::optional<Decimal> interval;  // of contours; a round one if not given
+  std::string title;
+  bool coordinates = false, north_arrow = false;
+  uint32_t first_bytes = 0;  // of a stream: draw what a decoder has after these; 0: all
+  bool force = false;        // read a pack of more vertices than a stream can have
+};
 
 // As many steps as would lie between points on a square grid.
 Spot cell_of(const PointCloud& cloud, const SurfaceModel& model) {
@@ -160,8 +181,6 @@ void draw(const RenderRequest& request, const Portrait& portrait, const Comparis
   std::fputs(of_units.c_str(), stderr);
 }
 
-}  // namespace
-
 void run_render(const RenderRequest& request) {
   const Preparation preparation = preparation_of(request.options, request.preparation);
   std::vector<std::string> inputs = files_of(request.source, preparation);
@@ -184,6 +203,97 @@ void run_render(const RenderRequest& request) {
                                    : cell_of(*original.cloud(), model),
       [&](const PostVisitor& visit) { return original.compare(std::nullopt, {}, visit); }};
   draw(request, portrait, &comparison);
+}
+
+// CLI11 adds the stream that follows a list of sources to the list; this takes it out again.
+void take_stream_from_sources(RenderRequest& request) {
+  if (!request.input.empty() || request.source.empty()) return;
+  std::vector<std::string> files = request.preparation.more_files;
+  files.insert(files.begin(), request.source);
+  const auto stream = std::find_if(files.begin(), files.end(), [](const std::string& file) {
+    return suffix_of(file) == ".mtin" || suffix_of(file) == ".mtp";
+  });
+  if (stream == files.end()) return;
+  request.input = *stream;
+  files.erase(stream);
+  if (files.empty()) throw CLI::ArgumentMismatch("--source: names a stream, and no terrain");
+  request.source = files.front();
+  request.preparation.more_files.assign(files.begin() + 1, files.end());
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Action& action) {
+  auto request = std::make_shared<RenderRequest>();
+  CLI::App& command =
+      *app.add_subcommand("render", "Draw a stream or a pack as .png, .svg or .html");
+  command.group(kLookAt);
+  add_stream(command, request->input)->required(false);  // as far as CLI11 can see
+  add_output(command, request->output,
+             "Write this picture, .png or .svg, or page for a browser, .html");
+  begin_group(command, "Appearance");
+  add_number(command, "--width N", request->width, kNarrowest, "Set the pixels in a row", kWidest)
+      ->default_str(std::to_string(request->width));
+  command.add_flag_callback(
+      "--no-mesh", [request] { request->mesh = false; }, "Do not draw the triangles");
+  add_choice<PaletteKind>(command, "--palette", request->palette,
+                          {{"land", PaletteKind::kLand}, {"sea", PaletteKind::kSea}},
+                          "Choose the colours of heights. land: one ramp from the lowest height. "
+                          "sea: blue below 0, land colours above");
+  add_read(
+      command, "--contours auto|METRES",
+      [request](const std::string& text) {
+        request->contours = true;
+        request->interval = parse_decimal(text);
+        return text == "auto" || (request->interval && request->interval->mantissa > 0);
+      },
+      "auto or a decimal number above 0",
+      "Draw contour lines at this distance of heights, in the terrain's unit, or at a round one")
+      ->default_str("no contour lines");
+  command.add_flag("--coordinates", request->coordinates,
+                   "Draw ticks with numbers on the frame, at round coordinates");
+  add_number(command, "--first-bytes BYTES", request->first_bytes, 1u,
+             "Draw what a device has after the first bytes of a stream")
+      ->default_str("the whole stream");
+  add_text(command, "--title WORDS", request->title,
+           "Print this title above the map, in Latin letters, digits and common signs");
+  command.add_flag("--north-arrow", request->north_arrow, "Draw a north arrow, which points up");
+  begin_group(command, kOptions);
+  add_terrain(command, request->source, request->preparation, "--source",
+              "Draw a map of the errors against this terrain: files, or a folder of them")
+      ->default_str("no such map");
+  add_cells(command, request->source, request->preparation, false);
+  command.add_flag("--world-file", request->world,
+                   "Write also a .pgw file with the position of the map");
+  command.add_flag("--force", request->force, "Draw a pack of more than 2^24 vertices");
+  add_preparation(command, request->preparation, request->options);
+  command.callback([request, &action] {
+    take_stream_from_sources(*request);
+    if (request->input.empty()) throw CLI::RequiredError("STREAM");
+    action = [request] { run_render(*request); };
+  });
+}
+
+void add_fractal(CLI::App& app, Action& action) {
+  struct Request {
+    std::string output;
+    uint32_t size = 513;
+    uint64_t seed = 1;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command =
+      *app.add_subcommand("fractal", "Make a terrain to try the program with (.asc)");
+  command.group(kOthers);
+  add_output(command, request->output);
+  add_number(command, "--size N", request->size, kSmallestFractal, "Set the posts in a row",
+             kLargestFractal)
+      ->default_str(std::to_string(request->size));
+  add_number(command, "--seed N", request->seed, uint64_t{0},
+             "Set the random seed; each seed makes a different terrain")
+      ->default_str(std::to_string(request->seed));
+  command.callback([request, &action] {
+    action = [request] { run_fractal(request->output, request->size, request->seed); };
+  });
 }
 
 }  // namespace microtin::cli

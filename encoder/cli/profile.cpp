@@ -27,6 +27,21 @@ using encoder::ProfilePlace;
 using encoder::SightEnd;
 using encoder::SightOptions;
 
+struct ProfileRequest {
+  std::string input;
+  std::string output;  // empty: none
+  Place from, to;
+  std::optional<Decimal> from_height, to_height;      // above the ground
+  std::optional<Decimal> from_altitude, to_altitude;  // above the datum
+  std::optional<Decimal> frequency;                   // in MHz
+  uint32_t zone_share = 60;                           // percent
+  double earth_factor = 4.0 / 3;
+  uint32_t samples = 0;  // 0: all places of the profile
+  uint32_t width = 1024;
+  bool safe = false;
+  bool json = false;
+};
+
 // With three decimals at most, or as the position needs; null, or nothing, if it is not a number.
 std::string shown(double value, const char* absent = "null", int decimals = 3) {
   const auto decimal = shortest_decimal(value, decimals);
@@ -247,8 +262,7 @@ void add_model(CLI::App& command, Request& request) {
                    "a raster notes");
 }
 
-}  // namespace
-
+// Prints what a line crosses, and whether its ends see each other. Returns the exit code.
 int run_profile(const ProfileRequest& request) {
   expect_output(request.output);
   refuse_overwriting({request.input}, request.output.empty() ? "-" : request.output);
@@ -268,6 +282,8 @@ int run_profile(const ProfileRequest& request) {
     return code;
   });
 }
+
+}  // namespace
 
 void add_profile(CLI::App& app, Action& action, int& code) {
   auto request = std::make_shared<Request>();

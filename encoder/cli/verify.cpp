@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The commands verify, check and diff: whether files are what they should be.
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
 #include "encoder/base/error.hpp"
 #include "encoder/cli/commands.hpp"
+#include "encoder/cli/options.hpp"
+#include "encoder/cli/pages.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/import/breaklines.hpp"
@@ -14,6 +20,13 @@ namespace microtin::cli {
 // The command verify: compares a stream or a pack with its terrain and judges.
 
 namespace {
+
+// The terrain is read as the stream was encoded; breaklines must be edges.
+struct VerifyRequest : TerrainRequest {
+  std::string input;
+  bool never_below = false;
+  bool json = false;
+};
 
 void add_true_places(JsonObject& report, const Original::Judgement& judgement) {
   if (!judgement.true_places) return;
@@ -56,7 +69,7 @@ JsonObject report_of(const Original::Judgement& judgement, const Metadata& notes
   return report;
 }
 
-std::string text_of(const FoundBreaklines& found, const Placement& placement) {
+std::string text_of_lines(const FoundBreaklines& found, const Placement& placement) {
   return json(JsonObject{{"lines", json(uint64_t{found.lines.size()})},
                          {"edges", json(found.pieces)},
                          {"max_shift", json(found.max_shift)},
@@ -146,8 +159,7 @@ void expect_lines(const FoundBreaklines& lines, const VerifyRequest& request) {
               parameter("breaklines") + ' ' + file + ", or name the file of lines that it has");
 }
 
-}  // namespace
-
+// Throws Error, after the report, if the stream fails its promises.
 void run_verify(const VerifyRequest& request) {
   const std::string& input = request.input;
   const Preparation preparation = preparation_of(request.options, request.preparation);
@@ -166,7 +178,7 @@ void run_verify(const VerifyRequest& request) {
   if (!request.options.breaklines.empty()) {
     const FeatureFiles files = feature_files_of(preparation);
     lines = original.breaklines(read_breaklines(request.options.breaklines, files));
-    report.emplace_back("breaklines", text_of(*lines, document.metadata().placement));
+    report.emplace_back("breaklines", text_of_lines(*lines, document.metadata().placement));
   }
   add_warnings(report, original);
   const bool told = tell(text_of(report, request.json));
@@ -178,8 +190,6 @@ void run_verify(const VerifyRequest& request) {
 }
 
 // The commands check and diff: what is damaged in a file, and how two packs differ.
-
-namespace {
 
 // "[1, 2]"
 template <class Items, class Text>
@@ -205,8 +215,7 @@ std::string tiles_of(const std::vector<TileFault>& faults, bool unsupported) {
   return json_list(tiles, [](uint32_t tile) { return json(tile); });
 }
 
-}  // namespace
-
+// Throws Error, after the report, if a tile cannot be used.
 void run_check(const std::string& input, bool as_json) {
   const Checked found = check_file(input);
   JsonObject report = {{"kind", json(found.tiles == 0 ? "stream" : "pack")}};
@@ -225,6 +234,7 @@ void run_check(const std::string& input, bool as_json) {
   if (!told) throw ReportLost(input + ": is intact, but nobody reads the report");
 }
 
+// Throws Error, after the report, if a tile differs.
 void run_diff(const std::string& first, const std::string& second, bool as_json) {
   const Difference found = compare_packs(first, second);
   const bool told = tell(
@@ -237,6 +247,50 @@ void run_diff(const std::string& first, const std::string& second, bool as_json)
                 " differ from those of " + first);
   }
   if (!told) throw ReportLost(second + ": has the same tiles, but nobody reads the report");
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, Action& action) {
+  auto request = std::make_shared<VerifyRequest>();
+  CLI::App& command =
+      *app.add_subcommand("verify", "Compare a stream or a pack with its source terrain");
+  command.group(kLookAt);
+  add_stream(command, request->input);
+  add_terrain(command, request->source, request->preparation);
+  add_preparation(command, request->preparation, request->options);
+  begin_group(command, kOptions);
+  command.add_flag("--never-below", request->never_below,
+                   "Fail also if the surface is below the source anywhere");
+  add_error_map(command, request->options, "the file states the bound elsewhere");
+  add_breaklines(command, request->options, "Fail also if edges do not follow");
+  add_obstacles(command, request->options);
+  add_json(command, request->json);
+  command.callback([request, &action] { action = [request] { run_verify(*request); }; });
+}
+
+void add_check(CLI::App& app, Action& action) {
+  add_look(app, action, "check",
+           "Decode all of a stream or a pack, and list the tiles that cannot be used", run_check);
+}
+
+void add_diff(CLI::App& app, Action& action) {
+  struct Request {
+    std::string first, second;
+    bool json = false;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command =
+      *app.add_subcommand("diff", "List the tiles in which two packs of the same tiles differ");
+  command.group(kLookAt);
+  command.add_option("FIRST", request->first, "A pack (.mtp)")->required()->type_name(kFile);
+  command.add_option("SECOND", request->second, "A pack of the same tiles")
+      ->required()
+      ->type_name(kFile);
+  add_json(command, request->json);
+  command.callback([request, &action] {
+    action = [request] { run_diff(request->first, request->second, request->json); };
+  });
 }
 
 }  // namespace microtin::cli
