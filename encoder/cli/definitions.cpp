@@ -37,7 +37,7 @@ std::string limits_of(const CLI::App& app, const CLI::Option& option) {
   return text.empty() ? "" : " (" + text.substr(2) + ')';
 }
 
-OptionText describe(const CLI::App& app, const CLI::Option& option) {
+OptionText describe_option(const CLI::App& app, const CLI::Option& option) {
   const bool takes_value = option.get_items_expected_max() != 0;
   const bool repeats = option.get_items_expected_max() > 1;
   const std::string dots = repeats ? "..." : "";
@@ -66,7 +66,8 @@ CommandText describe(const CLI::App& app) {
   CommandText text{
       app.get_name(), app.get_description(), app.get_group(), app.get_footer(), {}, {}, {}};
   for (const CLI::Option* const option : app.get_options()) {
-    (option->get_positional() ? text.arguments : text.options).push_back(describe(app, *option));
+    (option->get_positional() ? text.arguments : text.options)
+        .push_back(describe_option(app, *option));
   }
   for (const CLI::App* const command : app.get_subcommands({})) {
     if (!command->get_group().empty()) text.commands.push_back(describe(*command));
