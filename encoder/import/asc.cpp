@@ -97,6 +97,9 @@ class Header {
   Axis centres(char axis) const {
     const std::string lower_left = std::string(1, axis) + "ll";
     const std::string other = std::string("d") + axis;
+    if (has(other) && has("cellsize") && !(required(other) == required("cellsize"))) {
+      throw Error("cellsize and " + other + " are both given; keep one");
+    }
     const std::string size_key = has(other) && !has("cellsize") ? other : "cellsize";
     const Decimal size = required(size_key);
     if (size.mantissa <= 0) throw Error(size_key + " is not above 0");
@@ -138,6 +141,7 @@ NoData no_data_of(const Words& words) {
 // Reads keys and values up to the first word that begins no key: the first height.
 Header read_header(Words& words) {
   Header header;
+  bool has_no_data = false;
   while (words.next()) {
     const char first = words.word()[0];
     if (NoData().marks(words.word())) return header;
@@ -148,7 +152,9 @@ Header read_header(Words& words) {
     }
     if (!words.next()) words.fail("the value of " + key + " is missing");
     if (key == kNoDataKey) {
+      if (has_no_data) words.fail(key + " is given twice");
       header.no_data = no_data_of(words);
+      has_no_data = true;
       continue;
     }
     const std::optional<Decimal> value = parse_decimal(words.word(), kPlaceDecimals);

@@ -11,7 +11,7 @@
 namespace microtin::importing {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r", kSea = "sea ";
+constexpr std::string_view kBlanks = " \t\r", kSea = "sea";
 
 std::string_view trimmed(std::string_view line) {
   const size_t first = line.find_first_not_of(kBlanks);
@@ -21,7 +21,9 @@ std::string_view trimmed(std::string_view line) {
 
 void add_line(std::string_view line, const std::filesystem::path& folder, CellList& list) {
   if (line.empty() || line[0] == '#') return;
-  if (line.substr(0, kSea.size()) != kSea) {
+  const bool is_sea = line.substr(0, kSea.size()) == kSea && line.size() > kSea.size() &&
+                      is_blank(line[kSea.size()]);
+  if (!is_sea) {
     list.files.push_back((folder / std::filesystem::u8path(line)).string());
     return;
   }
@@ -39,11 +41,9 @@ CellList read_cell_list(const std::string& path) {
   CellList list;
   size_t number = 0;
   for (std::string_view rest = without_mark(content); !rest.empty();) {
-    const size_t end = std::min(rest.find('\n'), rest.size());
     ++number;
     with_file_context(path + ", line " + std::to_string(number),
-                      [&] { add_line(trimmed(rest.substr(0, end)), folder, list); });
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+                      [&] { add_line(trimmed(take_line(rest)), folder, list); });
   }
   if (list.files.empty()) throw Error(path + ": names no file; write one on each line");
   return list;

@@ -36,7 +36,7 @@ bool is_grid_file(const std::string& path) {
 // A grid's well-known text is in a file next to it. Empty: there is none.
 std::string system_file_of(const std::string& path) {
   if (!is_grid_file(path)) return "";
-  for (const char* const suffix : {".prj", ".PRJ"}) {
+  for (const char* const suffix : {".prj", ".PRJ", ".Prj"}) {
     const fs::path file = fs::u8path(path).replace_extension(suffix);
     std::error_code none;
     if (fs::is_regular_file(file, none)) return file.string();

@@ -42,6 +42,8 @@ FilesBySuffix terrain_files_in(const std::string& folder) {
   if (error) throw Error(folder + ": cannot be read: " + error.message());
   for (const auto& entry : entries) {
     const std::string path = entry.path().string(), suffix = suffix_of(path);
+    // macOS keeps attributes of N50E006.hgt in ._N50E006.hgt.
+    if (entry.path().filename().string().front() == '.') continue;
     if (is_terrain_suffix(suffix) && is_regular_file(path)) {
       by_suffix[counted(suffix)].push_back(path);
     }
@@ -102,7 +104,12 @@ class WaterPlaces {
   WaterPlaces(const Raster& frame, const Preparation& preparation)
       : frame_(frame), absent_(preparation.absent), mask_path_(preparation.water_mask) {
     if (!mask_path_.empty()) mask_ = open_mask(mask_path_, frame);
-    if (frame.reference.horizontal_unit == Unit::kDegree) sea_ = preparation.sea;
+    sea_ = preparation.sea;
+    if (!sea_.empty() && frame.reference.horizontal_unit != Unit::kDegree) {
+      throw Error(preparation.cells +
+                  ": marks cells of degrees as sea, and the terrain is not in " +
+                  "degrees; leave these lines out");
+    }
   }
 
   // 1 where there is water, for a part of the raster, `absent` as the raster has it; nothing: all
@@ -171,6 +178,10 @@ class FloodedRaster : public RasterReader {
 
 // The files that make up a terrain.
 std::vector<std::string> parts_of(const std::string& path, const Preparation& preparation) {
+  if (!preparation.sea.empty() && !preparation.water_level) {
+    throw Error(preparation.cells + ": marks cells as sea, which need its height; set " +
+                parameter("water_level"));
+  }
   std::vector<std::string> parts = files_in(path);
   for (const std::string& more : preparation.more_files) {
     for (std::string& file : files_in(more)) parts.push_back(std::move(file));

@@ -53,6 +53,14 @@ TEST_CASE("cells: a list names files and folders, relative to its own") {
         "none: names no file; write one on each line\n");
   CHECK(session.failure("encode --cells bad -o d.mtp") ==
         "bad, line 2: 'N50' is not a cell of one degree; write it as N50W010\n");
+  session.write("mac", "# one\rdata\r\rsea\tN50E007\r");
+  CHECK(session.run("encode --cells mac --water-level 0 -o d.mtp").code == 0);
+  CHECK(contains(session.failure("encode --cells mac -o d.mtp"),
+                 "mac: marks cells as sea, which need its height; set --water-level"));
+  session.write("metres.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3 4\n");
+  session.write("metres", "metres.asc\nsea N50E007\n");
+  CHECK(contains(session.failure("encode --cells metres --water-level 0 --units metre -o d.mtp"),
+                 "metres: marks cells of degrees as sea"));
   CHECK(contains(session.failure("encode -o d.mtp", 2), "TERRAIN is required"));
   CHECK(contains(session.failure("encode --cells missing -o d.mtp"), "missing: "));
 }

@@ -215,6 +215,7 @@ TEST_CASE("mosaic: anything in a folder except files is skipped") {
   session.write("cells/a.asc", grid(100, 50, "1 2 3\n4 5 6"));
   fs::create_symlink("b.asc", session.folder() + "/cells/b.asc");  // to itself
   fs::create_symlink("nowhere", session.folder() + "/cells/c.asc");
+  session.write("cells/._a.asc", "attributes of macOS");
   CHECK(contains(session.run("encode cells -o t.mtin").out, "source: 6 posts\n"));
 }
 

@@ -133,6 +133,11 @@ TEST_CASE("asc: every error names its line") {
   CHECK(grid_error(kHeader + "nodata_value abc\n1 2 3") == "grid:6: \"abc\" is not a number");
   CHECK(grid_error(kHeader + "\x01\x02\xFF") == "grid:6: \"???\" is not a number in range");
   CHECK(grid_error(kHeader + "ncols 4\n1") == "grid:6: ncols is given twice");
+  CHECK(grid_error(kHeader + "nodata_value -9\nNODATA_value -1\n1") ==
+        "grid:7: nodata_value is given twice");
+  CHECK(grid_error(kHeader + "dx 10\ndy 20\n1 2 3\n4 5 6") ==
+        "grid: cellsize and dy are both given; keep one");
+  CHECK(import_asc("grid", kHeader + "dx 10.0\ndy 1e1\n1 2 3\n4 5 6").width == 3);
   CHECK(grid_error(kHeader + "zone 4\n1") ==
         "grid:6: \"zone\" is neither a number nor a key of an ASCII grid's header");
   CHECK(grid_error("ncols") == "grid:1: the value of ncols is missing");
