@@ -279,9 +279,18 @@ std::string source_of(const Document& document, const std::string& name) {
                document.pack()->header().most_vertices, name);
 }
 
+// A stream was decoded to be opened; of a pack each tile is. Tiles of a later version are intact.
+void expect_intact(const Document& document) {
+  if (document.pack() == nullptr) return;
+  for (const TileFault& fault : document.pack()->faults()) {
+    if (!fault.is_unsupported) throw Error(document.path() + ": " + fault.text);
+  }
+}
+
 void run_embed(const std::string& input, const std::string& output) {
   refuse_overwriting({input}, output);
   const Document document(input);
+  expect_intact(document);
   const std::string name = output == "-" ? "terrain" : fs::u8path(output).stem().string();
   OutputFile out(output);
   out.write(source_of(document, name));

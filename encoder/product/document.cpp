@@ -165,11 +165,36 @@ void expect_water_level(const std::string& path, const std::optional<Decimal>& n
               ", not " + to_string(*given));
 }
 
+void expect_same_system(const Metadata& file, const Reference& terrain) {
+  const auto differ = [](auto a, auto b) {
+    return a != b && a != decltype(a){} && b != decltype(b){};
+  };
+  const auto expect_unit = [&](Unit of_file, Unit of_terrain) {
+    if (!differ(of_file, of_terrain)) return;
+    throw Error("the terrain has other units than the encoded file, " +
+                std::string(name_of(of_terrain)) + " and " + std::string(name_of(of_file)) +
+                "; set them with " + parameter("units"));
+  };
+  const auto expect_code = [&](uint32_t of_file, uint32_t of_terrain) {
+    if (!differ(of_file, of_terrain)) return;
+    throw Error("the terrain has another coordinate system than the encoded file, EPSG " +
+                std::to_string(of_terrain) + " and " + std::to_string(of_file) + "; set it with " +
+                parameter("epsg") + ", or encode the terrain again");
+  };
+  expect_unit(file.horizontal_unit, terrain.horizontal_unit);
+  expect_unit(file.vertical_unit, terrain.vertical_unit);
+  expect_code(file.horizontal_epsg, terrain.horizontal_epsg);
+  expect_code(file.vertical_epsg, terrain.vertical_epsg);
+}
+
 Original::Original(const Document& document, const std::string& path,
                    const Preparation& preparation)
     : document_(document),
       water_level_(preparation.water_level),
-      source_(source_for(document, path, preparation)) {}
+      source_(source_for(document, path, preparation)) {
+  const Reference& terrain = raster() != nullptr ? raster()->reference : cloud()->reference;
+  with_file_context(path, [&] { expect_same_system(document.metadata(), terrain); });
+}
 
 const Raster* Original::raster() const {
   if (const auto* whole = std::get_if<Source>(&source_)) return std::get_if<Raster>(whole);

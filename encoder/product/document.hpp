@@ -84,6 +84,10 @@ struct Promise {
 void expect_water_level(const std::string& path, const std::optional<Decimal>& noted,
                         const std::optional<Decimal>& given);
 
+// Throws Error if a terrain is known to be in other units or systems than a stream or a pack. Those
+// that one of them does not state are no difference.
+void expect_same_system(const Metadata& file, const Reference& terrain);
+
 // A terrain that a document is compared with: read in pieces for a pack, whole for a stream. Of a
 // LAS or LAZ file the classes are taken that the document notes, if none are asked for; of points
 // that share a place those that stand for all by the document's rule.

@@ -27,23 +27,6 @@ PackFile open_pack_of_raster(const std::string& path) {
   return pack;
 }
 
-// Throws Error if the terrain is known to be in other units or systems than the pack. Those that
-// one of them does not state are no difference.
-void expect_same_system(const Metadata& old, const Reference& terrain) {
-  const auto differ = [](auto a, auto b) {
-    return a != b && a != decltype(a){} && b != decltype(b){};
-  };
-  if (differ(old.horizontal_unit, terrain.horizontal_unit) ||
-      differ(old.vertical_unit, terrain.vertical_unit)) {
-    throw Error("the terrain has other units than the pack; set them with " + parameter("units"));
-  }
-  if (differ(old.horizontal_epsg, terrain.horizontal_epsg) ||
-      differ(old.vertical_epsg, terrain.vertical_epsg)) {
-    throw Error(
-        "the terrain has another coordinate system than the pack; encode the terrain again");
-  }
-}
-
 // The terrain must have bounds from a map exactly if the pack has, and at the same scale.
 void expect_same_map(const Metadata& old, const Raster& frame) {
   if (frame.bounds.unscaled.has_value() == old.bounds.has_value()) return;

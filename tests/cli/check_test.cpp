@@ -2,6 +2,7 @@
 // The commands check and diff.
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,8 @@ TEST_CASE("check: intact files pass, and bad tiles are all listed") {
   CHECK(contains(damaged.out, "\"unsupported\": []"));
   CHECK(contains(damaged.out, "\"tile 3: damaged"));
   CHECK(contains(damaged.err, "d.mtp: 2 of 16 tiles cannot be used"));
+  CHECK(contains(session.failure("embed d.mtp -o d.h"), "d.mtp: tile 3: damaged"));
+  CHECK(!std::filesystem::exists(session.folder() + "/d.h"));
   const std::string intact = session.read("t.mtp");
   Bytes sums(intact.begin(), intact.end());
   sums[note_in(sums, MICROTIN_NOTE_SUMS).first] ^= 1;

@@ -60,6 +60,25 @@ TEST_CASE("update: a tile whose stream or entry is damaged is new, whichever it 
   }
 }
 
+TEST_CASE("verify: a terrain in other units or of another system than the file is refused") {
+  const Session session;
+  session.write("t.asc",
+                "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3 4 5 6 7 8 9\n");
+  for (const char* file : {"o.mtin", "o.mtp"}) {
+    const std::string made = std::string(" -o ") + file, of_file = std::string("verify ") + file;
+    REQUIRE(session.run("encode t.asc --epsg 25832 --units :metre --max-error 1" + made).code == 0);
+    CHECK(session.run(of_file + " t.asc").code == 0);
+    CHECK(contains(session.failure(of_file + " t.asc --units :foot"),
+                   "t.asc: the terrain has other units than the encoded file, foot and metre"));
+    CHECK(contains(
+        session.failure(of_file + " t.asc --epsg 25833"),
+        "t.asc: the terrain has another coordinate system than the encoded file, EPSG 25833"));
+    CHECK(contains(
+        session.failure("render " + std::string(file) + " -o r.png --source t.asc --units :foot"),
+        "has other units than the encoded file"));
+  }
+}
+
 TEST_CASE("update: what cannot be one pack is refused, and nothing is written") {
   const Changed session;
   const auto refusal = [&](const std::string& arguments) {
@@ -67,7 +86,7 @@ TEST_CASE("update: what cannot be one pack is refused, and nothing is written") 
   };
   CHECK(contains(refusal("old.mtp new.asc --water-level 5"),
                  "old.mtp: its water level is 600, not 5"));
-  CHECK(contains(refusal("old.mtp new.asc --units foot"), "has other units than the pack"));
+  CHECK(contains(refusal("old.mtp new.asc --units foot"), "has other units than the encoded file"));
   CHECK(contains(refusal("old.asc new.asc"), "old.asc: is not a pack"));
   for (const std::string option : {"--digest", "--phases"}) {
     CHECK(contains(refusal("old.mtp new.asc " + option), option + " is an option of streams"));
