@@ -150,8 +150,9 @@ constexpr std::array<Name, 63> kNames = {{{"m", "metre"},
 
 constexpr std::array<Unit, 3> kMeasures = {Unit::kMetre, Unit::kFoot, Unit::kUsSurveyFoot};
 
+// Letters beyond ASCII count, too: a micrometre is not a metre.
 bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || static_cast<unsigned char>(c) >= 0x80;
 }
 
 // In lower case, with one blank for all between words.

@@ -208,7 +208,8 @@ TEST_CASE("units: names as files and people write them") {
     CHECK_MESSAGE((unit.other.empty() ? std::string(name_of(unit.unit)) : unit.other) == name,
                   text);
   }
-  for (const char* const other : {"ms", "furlong", "ins", "1", "m/s", "dB"}) {
+  for (const char* const other :
+       {"ms", "furlong", "ins", "1", "m/s", "dB", "\xC2\xB5m", "\xCE\xBCm", "k\xC3\xA4m"}) {
     CHECK_MESSAGE(unit_named(other).other == other, other);
   }
   CHECK(!unit_named("").is_stated());
