@@ -130,6 +130,19 @@ std::string help_page(const CLI::App& app) {
   return page;
 }
 
+namespace {
+
+// "--units: At Most 1 required but received 2", as CLI11 has it, in plain words; else empty.
+std::string repeated_option(const std::string& fault) {
+  const std::string words = ": At Most 1 required but received ";
+  const std::size_t at = fault.find(words);
+  if (at == fault.npos) return "";
+  return fault.substr(0, at) + " is given " + fault.substr(at + words.size()) +
+         " times; give it once";
+}
+
+}  // namespace
+
 std::string usage_fault(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App* app = &program;
   std::string page = "microtin help";
@@ -150,6 +163,8 @@ std::string usage_fault(const CLI::App& program, const CLI::ParseError& error) {
     const std::string name = option->substr(0, option->find('='));
     return "unknown option " + name + remedy(nearest(name, names_of_options(text)), page);
   }
+  std::string repeated = repeated_option(error.what());
+  if (unknown.empty() && !repeated.empty()) return repeated;
   const bool has_remedy = dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;
   if (unknown.empty()) return error.what() + (has_remedy ? "" : remedy("", page));
   if (!has_commands) return "unexpected argument " + unknown[0] + remedy("", page);
