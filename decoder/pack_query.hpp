@@ -225,11 +225,13 @@ inline bool is_place(const microtin_segment& segment) {
   return segment.x == segment.x_end && segment.y == segment.y_end;
 }
 
-// A segment that is a single place begins and ends there, in the first tile that has its height.
+// A segment that is a single place begins and ends there, in each tile that has its height: tiles
+// may have other margins.
 template <class Form, class Add>
 microtin_query_result walk_place(const microtin_pack& p, const microtin_segment& segment,
                                  const Add& add, microtin_segment_state* state) {
   microtin_query_result answer = MICROTIN_QUERY_VOID;
+  bool is_known = false;
   for (TouchedTiles tiles(p.header.grid, segment); !tiles.at_end(); tiles.next()) {
     const void* const terrain = terrain_of(p, tiles.number(), &answer);
     if (terrain == nullptr) continue;
@@ -245,9 +247,9 @@ microtin_query_result walk_place(const microtin_pack& p, const microtin_segment&
     tile_add(walk, c, state);
     walk.step(false, &c);
     tile_add(walk, c, state);
-    return MICROTIN_QUERY_OK;
+    is_known = true;
   }
-  return answer;
+  return is_known ? MICROTIN_QUERY_OK : answer;
 }
 
 // Hands the crossings of a segment, tile by tile, to add(walk, crossing, state).

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "decoder/ring.hpp"
+#include "decoder/touched_tiles.hpp"
 #include "tests/support/limited_segment.hpp"
 #include "tests/support/pack_device.hpp"
 #include "tests/support/packs.hpp"
@@ -186,6 +187,38 @@ TEST_CASE_TEMPLATE("pack: the clearance of a path is exact, and lower by the mar
   }
   CHECK(counts.clear > tried(20));
   CHECK(counts.low > tried(20));
+}
+
+TEST_CASE_TEMPLATE("pack: a safe path that is a place on a border takes the largest margin there",
+                   Device, MeshSlots, CompactSlots) {
+  Card card{write_pack(encode_pack(rough_raster(61, 53), pack_options(3, 100)))};
+  const PackFile pack(card.bytes);
+  const TileGrid& grid = pack.grid();
+  const Device device(4);
+  int different = 0;
+  for (uint32_t x = grid.width; x < grid.x_max; x += grid.width) {
+    for (uint32_t y = grid.height; y < grid.y_max; y += grid.height) {
+      const microtin_segment here = at(x, y);
+      REQUIRE(device.load(card, here) == MICROTIN_STATUS_OK);
+      uint32_t largest = 0, first = 0;
+      for (TouchedTiles tiles(grid, here); !tiles.at_end(); tiles.next()) {
+        const PackEntry& entry = pack.entries()[tiles.number()];
+        microtin_stream_info info;
+        REQUIRE(microtin_read_stream_info(card.bytes.data() + entry.offset, entry.size, &info) ==
+                MICROTIN_STATUS_OK);
+        if (largest == 0) first = info.below;
+        largest = std::max(largest, info.below);
+      }
+      if (first != largest) ++different;
+      int32_t height = 0;
+      REQUIRE(device.height_at(here.x, here.y, height) == MICROTIN_QUERY_OK);
+      microtin_path_clearance found;
+      CHECK(device.path_clearance({here, 90000, 90000, 0}, &found, MICROTIN_FLAG_SAFE) ==
+            MICROTIN_QUERY_OK);
+      CHECK(found.least == 90000 - (height >> 8) - static_cast<int32_t>(largest) * 16);
+    }
+  }
+  CHECK(different > 0);
 }
 
 TEST_CASE_TEMPLATE("pack: the first low place on a border of tiles that disagree is the first",
