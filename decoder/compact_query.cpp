@@ -87,6 +87,11 @@ FinePoint seen_from_box(const microtin_compact* c, int32_t x, int32_t y) {
   return FinePoint{x - corner.x, y - corner.y};
 }
 
+int32_t nearest_on_lattice(int32_t place) {
+  const int32_t most = 65535 * 256;
+  return place < 0 ? 0 : place > most ? most : place;
+}
+
 }  // namespace
 }  // namespace microtin
 
@@ -186,5 +191,6 @@ void microtin_compact_margins(const microtin_compact* compact, uint32_t* below, 
 }
 
 uint32_t microtin_compact_hint(const microtin_compact* compact, int32_t x, int32_t y) {
-  return number_near(ring_of(compact), seen_from_box(compact, x, y), 1);
+  const FinePoint p = seen_from_box(compact, nearest_on_lattice(x), nearest_on_lattice(y));
+  return number_near(ring_of(compact), p, 1);
 }

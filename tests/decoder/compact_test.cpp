@@ -344,6 +344,19 @@ TEST_CASE("a compact terrain may be copied to another place") {
                    random) == "");
 }
 
+TEST_CASE("compact terrains: a hint for a position outside is that of the nearest on the lattice") {
+  const Compact compact(terrain_stream(900, 6));
+  const microtin_compact* const c = compact.get();
+  const int32_t most = 65535 * 256, far[] = {INT32_MIN, -most, -1, most + 1, INT32_MAX};
+  for (const int32_t x : far) {
+    const int32_t near = x < 0 ? 0 : most;
+    for (const int32_t other : {0, 70000, most}) {
+      CHECK(microtin_compact_hint(c, x, other) == microtin_compact_hint(c, near, other));
+      CHECK(microtin_compact_hint(c, other, x) == microtin_compact_hint(c, other, near));
+    }
+  }
+}
+
 TEST_CASE("compact terrains: arguments, and meshes that are not verified") {
   const Bytes stream = terrain_stream(900, 6);
   const Device device(900);

@@ -188,8 +188,9 @@ microtin_query_result microtin_compact_sample_grid(const microtin_compact* compa
                                                    const microtin_grid_spec* grid,
                                                    int16_t* heights);
 
-/* Returns a hint for (x, y), 8 fractional bits, for the first query in a region. The function looks
- * at about 22 vertices, and at two for each halving of the path between them. */
+/* Returns a hint for (x, y), 8 fractional bits, for the first query in a region. Positions outside
+ * the lattice take its nearest one. The function looks at about 22 vertices, and at two for each
+ * halving of the path between them. */
 uint32_t microtin_compact_hint(const microtin_compact* compact, int32_t x, int32_t y);
 
 #ifdef __cplusplus
