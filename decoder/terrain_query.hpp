@@ -72,16 +72,7 @@ bool walk_terrain(const Form& form, const microtin_segment& segment, uint32_t st
   return walk.at_end();
 }
 
-// The end stays in the state.
-inline void set_crossing(const Crossing& c, microtin_segment_state* state,
-                         microtin_crossing* crossing) {
-  state->value[0] = c.answer == MICROTIN_QUERY_OK ? height_of(c) : INT32_MIN;
-  state->value[1] = rounded_down(c.along);
-  state->result = c.answer;
-  state->is_low = c.before;
-  *crossing = microtin_crossing{state->value[1], state->value[0], state->result, state->is_low};
-}
-
+// What the last crossing has stays in the state; after the end, the end's.
 template <class Form>
 microtin_query_result next_in_profile(const Form& form, const microtin_segment& segment,
                                       microtin_segment_state* state, microtin_crossing* crossing,
@@ -89,15 +80,20 @@ microtin_query_result next_in_profile(const Form& form, const microtin_segment& 
   if (!is_on_lattice(segment)) return MICROTIN_QUERY_OUTSIDE;
   SegmentWalk<Form> walk = walk_from(form, segment, *state);
   bool is_found = false;
+  // With a state of another query, too, the profile has an end.
+  int32_t along = static_cast<int32_t>(MICROTIN_ALONG_END);
   for (uint32_t step = 0; !is_found && !walk.at_end() && is_in_limit(step, step_limit); ++step) {
     Crossing c;
     is_found = walk.step(step_limit != 0, &c);
-    if (is_found) set_crossing(c, state, crossing);
+    if (!is_found) continue;
+    along = rounded_down(c.along);
+    state->value[0] = c.answer == MICROTIN_QUERY_OK ? height_of(c) : INT32_MIN;
+    state->result = c.answer;
+    state->is_low = c.before;
   }
   keep(walk, state);
-  if (is_found) return MICROTIN_QUERY_OK;
-  if (!walk.at_end()) return MICROTIN_QUERY_STEP_LIMIT;
-  *crossing = microtin_crossing{state->value[1], state->value[0], state->result, state->is_low};
+  if (!is_found && !walk.at_end()) return MICROTIN_QUERY_STEP_LIMIT;
+  *crossing = microtin_crossing{along, state->value[0], state->result, state->is_low};
   return MICROTIN_QUERY_OK;
 }
 

@@ -44,6 +44,17 @@ void check_profile(const Both& terrain, const Surface& surface, const microtin_s
   REQUIRE(same_profile(profile_of(terrain.compact.compact(), c, 2), profile));
 }
 
+// Whether a profile that begins with this state reaches its end.
+template <class Form>
+bool has_end(const Form* form, const microtin_segment& c, microtin_segment_state state) {
+  microtin_crossing crossing = {0, 0, 0, 0};
+  for (uint32_t i = 0; i < 5 * triangles_of(form); ++i) {
+    const microtin_query_result answer = next_crossing(form, c, &state, &crossing, i % 4);
+    if (answer == MICROTIN_QUERY_OK && crossing.along == MICROTIN_ALONG_END) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 TEST_CASE("a profile has each place where a segment meets an edge or a vertex once, in order") {
@@ -68,6 +79,18 @@ TEST_CASE("profiles of places, of segments off the lattice, and of meshes that a
   CHECK(terrain.mesh.profile_next(off, &state, &crossing) == MICROTIN_QUERY_OUTSIDE);
   CHECK(terrain.compact.profile_next(off, &state, &crossing) == MICROTIN_QUERY_OUTSIDE);
   CHECK(terrain.made.profile_next(c, &state, &crossing) == MICROTIN_QUERY_NOT_LOADED);
+}
+
+TEST_CASE("a profile has an end, also if it begins with the state of another query") {
+  const Both terrain(terrain_stream(100, 4));
+  const microtin_segment c = {300, 200, 65535 * 256, 65000 * 256};
+  for (uint32_t stage = 0; stage < 12; ++stage) {
+    for (uint32_t triangle = 0; triangle < triangles_of(terrain.mesh.mesh()); ++triangle) {
+      const microtin_segment_state state = {stage, triangle, 2, 1, {7, 6}, {5, 4}, {9, 8}};
+      REQUIRE(has_end(terrain.mesh.mesh(), c, state));
+      REQUIRE(has_end(terrain.compact.compact(), c, state));
+    }
+  }
 }
 
 }  // namespace microtin::tests
