@@ -35,7 +35,7 @@ BEFORE = {
 HEADERS = {"c": ("requests.h",), "cpp": ("microtin.hpp", "compact_pack.hpp", "requests.h", "edge_marks.h")}
 HOSTED = {"c": ("encoder.h",), "cpp": ("encoder.hpp", "surface.hpp")}
 FUNCTION = re.compile(r"^(?!if|for|while|switch)\w[^;=\n]*\) \{", re.M)
-WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-Wno-unused-variable", "-Wno-unused-but-set-variable",
+WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-Wno-unused-variable", "-Wno-unused-but-set-variable",
             "-Wno-unused-function"]
 
 
