@@ -127,7 +127,8 @@ void microtin_ardupilot_begin_block(microtin_ardupilot* terrain, int32_t lat, in
   const microtin_spot at = {lat, lng};
   int row, column;
   terrain->has_block = 1;
-  block->posts.spacing = spacing != 0 ? spacing : terrain->spacing;
+  if (spacing == 0) spacing = terrain->spacing;
+  block->posts.spacing = spacing < MICROTIN_POSTS_FARTHEST ? spacing : MICROTIN_POSTS_FARTHEST;
   block->corner = microtin_posts_find(&block->posts, at, &block->grid_row, &block->grid_column);
   block->bitmap = 0;
   block->next = 0;

@@ -107,8 +107,8 @@ microtin_status microtin_ardupilot_check(microtin_ardupilot* terrain, int32_t la
                                          void* context);
 
 /* The block in which a place lies, as AP_Terrain::calculate_grid_info and find_grid_cache find it:
- * begins it without heights. `spacing` is in metres, 1 to 1000; 0 stands for that of
- * microtin_ardupilot_init. A block's corner finds that block, also if it was computed in single
+ * begins it without heights. `spacing` is in metres; 0 stands for that of microtin_ardupilot_init,
+ * and more than 1000 for 1000. A block's corner finds that block, also if it was computed in single
  * precision. Difference: there is one block at a time. */
 void microtin_ardupilot_begin_block(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
                                     uint16_t spacing);

@@ -13,6 +13,8 @@
 #define MICROTIN_POSTS_DEGREE 10000000 /* places are in 1e-7 degrees */
 #define MICROTIN_POSTS_OWN_ROWS 24     /* of a block: the others repeat its neighbours' */
 #define MICROTIN_POSTS_OWN_COLUMNS 28
+#define MICROTIN_POSTS_FARTHEST \
+  1000 /* metres between posts: near a pole longitudes stay in range */
 
 /* 1e-7 degrees of latitude for a metre, 89.83204953368922 in single precision, times 2^17. */
 #define MICROTIN_POSTS_PER_METRE 11774466

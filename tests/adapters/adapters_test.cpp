@@ -292,6 +292,21 @@ TEST_CASE("adapters: a block is that in which the place lies") {
   CHECK(corner(INT32_MAX, INT32_MAX).latitude == 900000000);
 }
 
+TEST_CASE(
+    "adapters: a block's posts are 1 km apart at most, whatever the firmware's parameter is") {
+  Loaded here;
+  microtin_ardupilot terrain;
+  microtin_ardupilot_init(&terrain, here.device.pack, 65535);
+  for (const uint16_t spacing : {uint16_t{0}, uint16_t{1001}, uint16_t{65535}}) {
+    microtin_ardupilot_begin_block(&terrain, 899999990, 1799999990, spacing);
+    CHECK(terrain.block.posts.spacing == 1000);
+    CHECK(terrain.block.corner.longitude >= 1790000000);
+    CHECK(!microtin_ardupilot_fill_block(&terrain, 56));
+  }
+  microtin_ardupilot_begin_block(&terrain, 433300000, 72300000, 1000);
+  CHECK(terrain.block.posts.spacing == 1000);
+}
+
 TEST_CASE("adapters: the scale of longitudes is that of single precision") {
   uint32_t wrong = 0;
   for (int64_t latitude = -1790000000; latitude <= 1790000000; latitude += 31247) {
