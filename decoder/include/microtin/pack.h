@@ -313,7 +313,7 @@ typedef struct microtin_path_search {
  * NEED_INPUT, STEP_LIMIT and IO call again with the same path, flags and search. With a step limit
  * a call walks through at most one tile.
  *
- * - OK: done; no tile is bad
+ * - OK: done; no entry of a tile is bad, and no stream that was needed
  * - BAD_TILES: done; search->clearance is that of the other tiles
  * - WORKSPACE_TOO_SMALL: requests of requests.h or queries of other threads use all slots
  * - ARGUMENT: also for numbers of the path outside their range */
