@@ -21,6 +21,7 @@
 #include "encoder/files/input.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/import/features.hpp"
+#include "encoder/import/reference.hpp"
 #include "encoder/product/document.hpp"
 #include "encoder/stream/embed.hpp"
 
@@ -71,27 +72,17 @@ class SystemFile {
   std::optional<OutputFile> out_;
 };
 
-// A grid in another system would have heights of other places.
-void expect_same_system(const std::string& path, const Reference& grid, const Metadata& terrain) {
-  const Unit there = grid.horizontal_unit, here = terrain.horizontal_unit;
-  if (there != here && there != Unit::kUnknown && here != Unit::kUnknown) {
-    throw Error(path + ": its x and y are in the unit " + std::string(name_of(there)) +
-                ", and those of the terrain in " + std::string(name_of(here)));
-  }
-  const uint32_t code = grid.horizontal_epsg, own = terrain.horizontal_epsg;
-  if (code != own && code != 0 && own != 0) {
-    throw Error(path + ": is in EPSG:" + std::to_string(code) +
-                ", the terrain in EPSG:" + std::to_string(own));
-  }
-}
-
 PostGrid grid_of_file(const DecodeRequest& request, const Metadata& terrain) {
   const OpenSource source = prepared_source(request.like, request.like_preparation);
   const auto* raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
   if (raster == nullptr) {
     throw Error(request.like + ": has points, and no posts; set their distance by --cell");
   }
-  expect_same_system(request.like, (*raster)->frame().reference, terrain);
+  Reference own;
+  own.horizontal_unit = terrain.horizontal_unit;
+  own.horizontal_epsg = terrain.horizontal_epsg;
+  with_file_context(request.like,
+                    [&] { expect_same_horizontal_system((*raster)->frame().reference, own); });
   return posts_of((*raster)->frame());
 }
 

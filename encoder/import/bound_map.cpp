@@ -9,6 +9,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/lattice_map.hpp"
+#include "encoder/import/reference.hpp"
 
 namespace microtin::importing {
 namespace {
@@ -79,6 +80,12 @@ BoundMap::BoundMap(const std::string& name, std::unique_ptr<RasterReader> bounds
 BoundMap::BoundMap(const std::string& name, std::vector<Feature> polygons, const Decimal& max_error)
     : name_(name), max_error_(max_error), polygons_(std::move(polygons)) {
   take_scale();
+}
+
+void BoundMap::expect_system(const Reference& terrain) const {
+  if (cells_ == nullptr) return;
+  with_file_context(name_,
+                    [&] { expect_same_horizontal_system(cells_->frame().reference, terrain); });
 }
 
 void BoundMap::add(std::vector<Feature> polygons) {

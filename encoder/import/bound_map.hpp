@@ -32,6 +32,9 @@ class BoundMap {
   // Adds polygons with a bound each.
   void add(std::vector<Feature> polygons);
 
+  // Throws Error naming the map if it is a raster in another system than the terrain.
+  void expect_system(const Reference& terrain) const;
+
   // Cells along an axis: first > last where there are none.
   struct Touched {
     int64_t first, last;

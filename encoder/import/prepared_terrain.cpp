@@ -90,7 +90,10 @@ std::unique_ptr<RasterReader> open_mask(const std::string& path, const Raster& f
   OpenSource source = open_terrain(path);
   auto* const mask = std::get_if<std::unique_ptr<RasterReader>>(&source);
   if (mask == nullptr) throw Error(path + ": is not a raster; use an .asc grid of 0 and 1");
-  with_file_context(path, [&] { check_water_mask((*mask)->frame(), frame); });
+  with_file_context(path, [&] {
+    expect_same_horizontal_system((*mask)->frame().reference, frame.reference);
+    check_water_mask((*mask)->frame(), frame);
+  });
   return std::move(*mask);
 }
 
@@ -347,18 +350,19 @@ Area area_of(const Preparation& preparation, const Reference& reference) {
 }
 
 // The bounds of posts or points, if they have their own; those of `map` in place of the file's.
-std::optional<BoundMap> bound_map_of(const Preparation& preparation, Unit unit,
+std::optional<BoundMap> bound_map_of(const Preparation& preparation, const Reference& terrain,
                                      std::optional<BoundMap> map = std::nullopt) {
   const std::optional<Decimal>&least = preparation.max_error, &edge = preparation.route_edge_error;
   const FeatureFiles files = feature_files_of(preparation);
   if (!map && !preparation.error_map.empty()) map.emplace(preparation.error_map, files, least);
+  if (map) map->expect_system(terrain);
   if (!edge) return map;
   if (preparation.route.empty() || !preparation.route_width || !least) {
     throw Error(parameter("route_edge_error") + " needs " + parameter("route") + " and " +
                 parameter("max_error"));
   }
-  std::vector<Feature> bounds =
-      route_bounds(preparation.route, files, *preparation.route_width, *least, *edge, unit);
+  std::vector<Feature> bounds = route_bounds(preparation.route, files, *preparation.route_width,
+                                             *least, *edge, terrain.horizontal_unit);
   if (map) {
     map->add(std::move(bounds));
   } else {
@@ -395,7 +399,7 @@ void shape(Source& source, const Preparation& preparation, std::optional<BoundMa
     const Area area = area_of(preparation, terrain::reference_of(source));
     std::visit([&](auto& one) { area.cut(one); }, source);
   }
-  map = bound_map_of(preparation, terrain::reference_of(source).horizontal_unit, std::move(map));
+  map = bound_map_of(preparation, terrain::reference_of(source), std::move(map));
   if (map) std::visit([&](auto& one) { map->bound(one); }, source);
   if (!preparation.obstacles.empty()) raise_to_obstacles(source, preparation);
 }
@@ -426,12 +430,12 @@ void cut_to_area(OpenSource& source, const Preparation& preparation) {
 
 void add_bounds(OpenSource& source, const Preparation& preparation, std::optional<BoundMap> map) {
   if (auto* const cloud = std::get_if<PointCloud>(&source)) {
-    map = bound_map_of(preparation, cloud->reference.horizontal_unit, std::move(map));
+    map = bound_map_of(preparation, cloud->reference, std::move(map));
     if (map) map->bound(*cloud);
     return;
   }
   auto& raster = std::get<std::unique_ptr<RasterReader>>(source);
-  map = bound_map_of(preparation, raster->frame().reference.horizontal_unit, std::move(map));
+  map = bound_map_of(preparation, raster->frame().reference, std::move(map));
   if (!map) return;
   raster = with_bounds(std::move(raster), std::make_shared<const BoundMap>(std::move(*map)));
 }

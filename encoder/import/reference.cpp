@@ -249,6 +249,19 @@ Reference completed(Reference reference) {
   return reference;
 }
 
+void expect_same_horizontal_system(const Reference& file, const Reference& terrain) {
+  const Unit there = file.horizontal_unit, here = terrain.horizontal_unit;
+  if (there != here && there != Unit::kUnknown && here != Unit::kUnknown) {
+    throw Error("its x and y are in the unit " + text_of(there) + ", and those of the terrain in " +
+                text_of(here) + "; bring it into the terrain's system");
+  }
+  const uint32_t code = file.horizontal_epsg, own = terrain.horizontal_epsg;
+  if (code != own && code != 0 && own != 0) {
+    throw Error("is in " + code_text(code) + ", and the terrain in " + code_text(own) +
+                "; bring it into the terrain's system");
+  }
+}
+
 bool read_units(const std::string& text, Reference& asked) {
   const size_t colon = text.find(':');
   const auto is_known = [](const StatedUnit& unit) {

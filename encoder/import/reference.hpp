@@ -36,6 +36,10 @@ SettledReference settle(const Reference& file, const Reference& asked);
 // not known. Throws Error if x and y are degrees and nobody knows the unit of heights.
 Reference completed(Reference reference);
 
+// Throws Error if x and y of a file that goes with a terrain are known to be in another unit or
+// system than the terrain's: its positions would be other places.
+void expect_same_horizontal_system(const Reference& file, const Reference& terrain);
+
 // "metre", of heights, too; or "degree:foot", horizontal before vertical; ":fathom" is the vertical
 // unit alone. False if it is none of these, or degrees are vertical.
 bool read_units(const std::string& text, Reference& asked);

@@ -437,6 +437,26 @@ TEST_CASE("features: a file of another system, or of places that there are not, 
   expect_refused("--epsg 4326:5773", "longitude 47000 is beyond 360 degrees");
 }
 
+TEST_CASE("error map: a raster of another system is refused, and so is a mask of water") {
+  const Session session;
+  write_terrain(session);
+  session.write("map.asc", grid_of_posts([](int, int) { return 1; }));
+  const auto write_system = [&](const char* unit) {
+    session.write("map.prj", std::string("GEOGCS[\"a\",UNIT[\"") + unit + "]]");
+  };
+  write_system("degree\",0.0174532925199433");
+  for (const char* option : {"--error-map map.asc", "--water-level 0 --water-mask map.asc"}) {
+    for (const char* output : {"a.mtin", "a.mtp"}) {
+      const std::string made = std::string(option) + " --max-error 9 -o " + output;
+      CHECK(contains(session.failure("encode t.asc --units metre " + made),
+                     "map.asc: its x and y are in the unit degree, and those of the terrain in "
+                     "metre; bring it into the terrain's system"));
+    }
+  }
+  session.write("map.prj", "LOCAL_CS[\"a\",UNIT[\"m\",1]]");
+  expect_runs(session, "encode t.asc --units metre --error-map map.asc --max-error 9 -o a.mtin");
+}
+
 TEST_CASE("options: the empty name of a file is refused, and not taken for none") {
   const Session session;
   write_terrain(session);
