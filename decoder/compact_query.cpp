@@ -87,8 +87,9 @@ FinePoint seen_from_box(const microtin_compact* c, int32_t x, int32_t y) {
   return FinePoint{x - corner.x, y - corner.y};
 }
 
+// Differences from the box are below 2^16 steps then, which distance() needs to stay in 32 bits.
 int32_t nearest_on_lattice(int32_t place) {
-  const int32_t most = 65535 * 256;
+  const int32_t most = int32_t{kLatticeMax} * 256;
   return place < 0 ? 0 : place > most ? most : place;
 }
 
