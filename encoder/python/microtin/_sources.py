@@ -14,6 +14,8 @@ from . import _library
 from ._library import Error, library
 from ._options import Crs, ErrorMap, Files, Path, epsg_of, path_of, wkt_of
 
+_BLOCK = 1 << 14  # rows, whose texts take some 6 MB
+
 
 class Source:
     """A terrain to be encoded, until the end of a with statement."""
@@ -150,6 +152,14 @@ def _source_from_array(
     return source
 
 
+def _shortest(numbers: Any) -> Any:
+    """The shortest decimals of floats of 32 bits, as floats of 64. The texts of a block of rows exist at a time."""
+    exact = numpy.empty(numbers.shape)
+    for begin in range(0, len(numbers), _BLOCK):
+        exact[begin : begin + _BLOCK] = numbers[begin : begin + _BLOCK].astype("U32")
+    return exact
+
+
 def source_from_points(points: ArrayLike, crs: Optional[Crs], error_map: Optional[ErrorMap]) -> Source:
     if error_map is not None and not isinstance(error_map, (str, bytes, os.PathLike)):
         raise Error("error_map: points take the path of a map, not an array")
@@ -162,8 +172,7 @@ def source_from_points(points: ArrayLike, crs: Optional[Crs], error_map: Optiona
     if masked.any():
         raise Error("points are masked; leave these out: points[~points.mask.any(axis=1)]")
     _expect_exact(rows, masked, "a coordinate")
-    if rows.dtype.kind == "f" and rows.dtype.itemsize == 4:
-        rows = rows.astype("U32")  # the shortest decimals
+    rows = _shortest(rows) if rows.dtype.kind == "f" and rows.dtype.itemsize == 4 else rows
     rows = numpy.ascontiguousarray(rows, numpy.float64)
     content = _library.Points(
         count=len(rows), coordinates=rows.ctypes.data_as(_library.Doubles), wkt=wkt_of(crs)
