@@ -27,10 +27,9 @@ constexpr std::size_t kSimplifiedTiles = 24;
 
 // How often tiles are counted, and how much of encoding them that takes: guesses, for the time left
 // alone.
-constexpr double kUsualCounts = 4, kCountOfTile = 0.4;
+constexpr double kUsualCounts = 4, kCountOfTile = 0.25;
 
-constexpr uint32_t kMostCounts = 5;    // where some fit
-constexpr double kQuickExcess = 1.33;  // of vertices after a fast search: at most, about
+constexpr uint32_t kMostCounts = 5;  // where some fit
 
 // The tiles that probably have most vertices.
 std::vector<uint32_t> roughest_tiles(const TiledRaster& tiled) {
@@ -52,31 +51,86 @@ std::vector<uint32_t> roughest_tiles(const TiledRaster& tiled) {
   return tiles;
 }
 
-// The vertices of the tile that probably has most, by a fast search. Tiles that are a little too
-// large that way are counted as they will be encoded.
-uint32_t most_vertices(const TiledRaster& tiled, uint32_t max_vertices,
-                       const SimplifyOptions& options, const Progress& progress) {
-  SimplifyOptions quick = options;
-  if (options.bounded) quick.search = Search::kFast;
+// Counts the vertices of the tiles that probably have most, at one size of tiles after the other.
+class TileCounts {
+ public:
+  explicit TileCounts(const SimplifyOptions& options) : options_(options), quick_(options) {
+    if (options.bounded) quick_.search = Search::kTrial;
+  }
+
+  // The most vertices of a tile; an estimate where that is surely allowed, or surely too many.
+  uint32_t most(const TiledRaster& tiled, uint32_t allowed, const Progress& progress);
+
+ private:
+  // How much the part may differ from tile to tile.
+  static constexpr double kSpread = 1.04;
+
+  uint32_t likely(uint32_t quick_count) const {
+    return static_cast<uint32_t>(std::lround(part_ * quick_count));
+  }
+  bool may_fit(uint32_t vertices, uint32_t allowed) const {
+    return vertices <= allowed || long_search_may_fit(vertices, allowed, options_);
+  }
+  bool is_certain(uint32_t likely, uint32_t allowed) const {
+    return likely * kSpread <= allowed ||
+           !may_fit(static_cast<uint32_t>(likely / kSpread), allowed);
+  }
+  uint32_t count_alone(const TiledRaster& tiled, uint32_t tile, SimplifyOptions options) const;
+  void search_longer(const TiledRaster& tiled, const std::vector<uint32_t>& tiles, uint32_t allowed,
+                     std::vector<uint32_t>& counts) const;
+
+  SimplifyOptions options_, quick_;
+  // The part of the vertices after a short search that are left after the whole one: nearly the
+  // same for all tiles of a terrain. 0: not known yet.
+  double part_ = 0;
+};
+
+std::size_t largest_of(const std::vector<uint32_t>& counts) {
+  return static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+}
+
+uint32_t TileCounts::most(const TiledRaster& tiled, uint32_t allowed, const Progress& progress) {
   const std::vector<uint32_t> tiles = roughest_tiles(tiled);
-  std::vector<uint32_t> vertices(tiles.size());
+  std::vector<uint32_t> counts(tiles.size());
   CountedProgress done(progress, tiles.size());
   for_each_parallel(tiles.size(), [&](std::size_t i) {
-    vertices[i] = count_vertices(tiled, tiles[i], quick);
-    const bool nearly_fits =
-        vertices[i] > max_vertices && vertices[i] <= max_vertices * kQuickExcess;
-    if (nearly_fits && quick.search != options.search) {
-      vertices[i] = count_vertices(tiled, tiles[i], options);
-    }
+    counts[i] = count_vertices(tiled, tiles[i], quick_);
     done.add_one();
   });
-  const auto most = [&] { return *std::max_element(vertices.begin(), vertices.end()); };
-  if (!long_search_may_fit(most(), max_vertices, options)) return most();
+  const std::size_t largest = largest_of(counts);
+  const uint32_t quick_count = counts[largest], guess = likely(quick_count);
+  if (quick_.search == options_.search || quick_count == 0) return quick_count;
+  if (part_ != 0 && is_certain(guess, allowed)) return guess;
+  const uint32_t count = count_alone(tiled, tiles[largest], options_);
+  part_ = static_cast<double>(count) / quick_count;
+  if (!may_fit(count, allowed)) return count;
   for_each_parallel(tiles.size(), [&](std::size_t i) {
-    if (vertices[i] <= max_vertices) return;
-    vertices[i] = count_vertices(tiled, tiles[i], with_long_search(options));
+    const bool is_known = i == largest || likely(counts[i]) * kSpread <= allowed;
+    counts[i] = is_known ? likely(counts[i]) : count_vertices(tiled, tiles[i], options_);
   });
-  return most();
+  search_longer(tiled, tiles, allowed, counts);
+  return counts[largest_of(counts)];
+}
+
+// On all processors.
+uint32_t TileCounts::count_alone(const TiledRaster& tiled, uint32_t tile,
+                                 SimplifyOptions options) const {
+  options.threads = processors();
+  return count_vertices(tiled, tile, options);
+}
+
+// Searches longer in the tiles that are too large, if all may fit then: first in the largest. If
+// this one is still too large, the others do not matter.
+void TileCounts::search_longer(const TiledRaster& tiled, const std::vector<uint32_t>& tiles,
+                               uint32_t allowed, std::vector<uint32_t>& counts) const {
+  const std::size_t largest = largest_of(counts);
+  if (counts[largest] <= allowed || !may_fit(counts[largest], allowed)) return;
+  const SimplifyOptions longer = with_long_search(options_);
+  counts[largest] = count_alone(tiled, tiles[largest], longer);
+  if (counts[largest] > allowed) return;
+  for_each_parallel(tiles.size(), [&](std::size_t i) {
+    if (counts[i] > allowed) counts[i] = count_vertices(tiled, tiles[i], longer);
+  });
 }
 
 // Into how many pieces the longer side goes, to begin with.
@@ -129,12 +183,13 @@ uint32_t choose_tile_size(TiledRaster tiled, const PackOptions& options, const P
   simplify.progress = {};
   const Raster& frame = tiled.raster.frame();
   const uint32_t longer = std::max(frame.width, frame.height) - 1;
+  TileCounts tile_counts(simplify);
   uint32_t fitting = 0, fewest = 1, counts = 0, pieces = guessed_pieces(frame, options);
   for (double done = 0;; done += (1 - done) / kUsualCounts) {
     tiled.grid = grid_of(frame, divide_up(longer, pieces));
     const uint32_t allowed = most_vertices(options, tiled.grid);
     const Progress part = progress.part(done, done + (1 - done) / kUsualCounts);
-    const uint32_t most = most_vertices(tiled, allowed, simplify, part);
+    const uint32_t most = tile_counts.most(tiled, allowed, part);
     if (most <= allowed) fitting = pieces;
     if (most > allowed) fewest = pieces + 1;
     const double ratio = std::sqrt(static_cast<double>(most) / allowed);

@@ -16,8 +16,8 @@ namespace {
 
 // Rough in the north alone: tiles of the south are encoded before one that is too large.
 RasterInMemory raster_in_memory() {
-  Raster raster = rough_raster(61, 53);
-  std::fill_n(raster.heights.begin(), 61 * 20, 0);
+  Raster raster = rough_raster(121, 113);
+  std::fill_n(raster.heights.begin(), 121 * 20, 0);
   return RasterInMemory(raster);
 }
 
@@ -29,7 +29,8 @@ std::vector<uint8_t> written(const product::EncodeOptions& options, uint32_t& st
   OutputFile out(folder / "pack");
   pack.write(out);
   out.commit();
-  steps = pack.report().grid.width;
+  const TileGrid grid = pack.report().grid;
+  steps = std::max(grid.width, grid.height);
   std::vector<uint8_t> bytes = bytes_of_file(folder / "pack");
   const Verification found = verify(PackFile(bytes), raster, options.lattice.max_error);
   CHECK(found.within_bound);
@@ -42,10 +43,10 @@ std::vector<uint8_t> written(const product::EncodeOptions& options, uint32_t& st
 TEST_CASE("product: a pack that is planned again holds what its last plan does") {
   product::EncodeOptions options;
   options.lattice.max_error = Decimal{2, 0};
-  options.tile_vertices = 60;
-  options.search = Search::kGreedy;  // finds more vertices than planning expects
+  options.tile_vertices = 47;  // planning counts the roughest tiles, which have fewer
+  options.search = Search::kGreedy;
   const RasterInMemory raster = raster_in_memory();
-  PackOptions first = pack_options(2, 60);
+  PackOptions first = pack_options(2, 47);
   first.simplify.search = Search::kGreedy;
   uint32_t steps = 0, same = 0;
   const std::vector<uint8_t> bytes = written(options, steps);
