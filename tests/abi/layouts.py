@@ -13,17 +13,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 RECORD = Path(__file__).with_name("layouts.txt")
 ABSENT = "-"
-# Memory of the caller, for numbers of vertices and of slots that every target can have.
-MEMORY = (
-    "MICROTIN_MESH_BYTES(500)",
-    "MICROTIN_DECODER_BYTES(500)",
-    "MICROTIN_BUCKETS_BYTES(8)",
-    "MICROTIN_COMPACT_BYTES(500)",
-    "MICROTIN_COMPACT_NARROW_BYTES(500)",
-    "MICROTIN_COMPACTOR_BYTES(500)",
-    "MICROTIN_PACK_BYTES(4, 100)",
-    "MICROTIN_COMPACT_PACK_BYTES(4, 100, 1000)",
-)
+# Arguments of the macros of the caller's memory that every target can have.
+ARGUMENTS = {"capacity": 500, "vertices": 500, "side": 8}
+OF_PACKS = {"slots": 4, "capacity": 100, "tile_bytes": 1000}
 
 
 def members(body):
@@ -43,7 +35,11 @@ def expressions(headers, names):
             found[struct] = f"sizeof({struct})"
             for member in members(body):
                 found[f"{struct}.{member}"] = f"__builtin_offsetof({struct}, {member})"
-    return {**found, **{memory: memory for memory in MEMORY}}
+        for macro, names in re.findall(r"^#define (MICROTIN_\w+_BYTES)\(([\w, ]+)\)", text, re.M):
+            values = OF_PACKS if "slots" in names else ARGUMENTS
+            call = f"{macro}({', '.join(str(values[name]) for name in names.split(', '))})"
+            found[call] = call
+    return found
 
 
 def measured(target, bits, headers, compiler):

@@ -11,7 +11,7 @@ trap 'rm -rf "$work"' EXIT
 copy() {
   rm -rf "$work/sources"
   mkdir "$work/sources"
-  cp -r "$here/../../decoder" "$here/../../encoder" "$here/../../shared" "$work/sources"
+  cp -r "$here/../../decoder" "$here/../../encoder" "$here/../../shared" "$here/../../.ci" "$work/sources"
 }
 
 plant() { # FILE EDIT: changes a file of the copy by sed
@@ -28,6 +28,7 @@ found() { # TEXT...: check fails, and prints each text
 }
 
 c=encoder/include/microtin/encoder.h
+symbols=.ci/debian/libmicrotin1.symbols
 at_end='s|^} microtin_options;|  double another;\n&|'
 
 copy
@@ -49,8 +50,13 @@ plant $c 's|const double\* heights;|const float* heights;|'
 found "microtin_raster_data::heights"
 
 copy
+plant $symbols 's|microtin_version_number@|microtin_gone@|'
+found "not in libmicrotin1.symbols: microtin_version_number" "not in the library: microtin_gone"
+
+copy
 plant $c "$at_end"
+plant $symbols '$a \ microtin_another@Base 1.0.0'
 plant decoder/include/microtin/microtin.h 's|^  MICROTIN_STATUS_BAD_MAGIC|  MICROTIN_STATUS_ANOTHER = 200,\n&|'
 plant encoder/product/encoder_c.cpp '$a extern "C" int microtin_another(int a); int microtin_another(int a) { return a; }'
 "$here/check" "$work/sources" >"$work/printed" || { cat "$work/printed"; echo "rejected: an addition is not allowed"; exit 1; }
-echo "7 changes found, 3 additions allowed"
+echo "8 changes found, 3 additions allowed"
