@@ -170,7 +170,7 @@ class RowReader {
     feature.max_error = number_of(from, "max_error", false);
     feature.has_max_error = field_of("max_error") >= 0;
     const int kind = field_of("class");
-    if (is_set(from, kind) && type_of(kind) == OFTString) {
+    if (is_set(from, kind)) {
       feature.line_class = OGR_F_GetFieldAsString(from.get(), kind);
       feature.place_of_class = path_ + ": " + name_of(from);
     }

@@ -250,7 +250,7 @@ class FeatureReader {
   }
 
   void read_class(const Value* value) {
-    if (value == nullptr || value->kind != Value::kText) return;
+    if (value == nullptr || (value->kind != Value::kText && value->kind != Value::kNumber)) return;
     features_.back().line_class = std::string(value->text);
     features_.back().place_of_class = name_ + ':' + std::to_string(value->line);
   }

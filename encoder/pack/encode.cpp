@@ -129,7 +129,8 @@ PackPlan plan_pack(const RasterReader& raster, const PackOptions& options) {
   const double begun = chooses_z_step ? kStepPart : kScanPart;
   PackPlan plan{tiled_raster(raster, scanned, options, progress.part(kScanPart, begun)), options,
                 options.tile_size, scanned.fingerprint, begun};
-  plan.tiled.lines = tiled_lines(options.lattice.breaklines, plan.tiled.lattice.placement);
+  plan.tiled.lines =
+      tiled_lines(options.lattice.breaklines, plan.tiled.lattice.placement, raster.frame());
   if (plan.tile_size == 0) {
     plan.planned += (1 - begun) * counting_part(raster.frame(), options);
     plan.tile_size = choose_tile_size(plan.tiled, options, progress.part(begun, plan.planned));

@@ -150,7 +150,7 @@ FoundBreaklines find_breaklines(const PackFile& pack, const RasterReader& raster
   expect_posts_of(raster.frame(), pack);
   const TileGrid& grid = pack.grid();
   const Placement lattice = pack.metadata().placement;
-  const TiledLines tiled(lines, lattice);
+  const TiledLines tiled(lines, lattice, {0, 0, grid.x_max, grid.y_max});
   FoundBreaklines all;
   for (uint32_t number = 0; number < pack.entries().size(); ++number) {
     const TileBox box = tile_box(grid, number);

@@ -286,14 +286,18 @@ TiledLines::Extent TiledLines::extent_of(const LatticeLine& line) {
   return extent;
 }
 
-TiledLines::TiledLines(const std::vector<RealLine>& lines, const Placement& pack) {
+TiledLines::TiledLines(const std::vector<RealLine>& lines, const Placement& pack,
+                       const TileBox& all) {
+  bool is_near = false;
   for (std::size_t number = 0; number < lines.size(); ++number) {
     LinePath path = terrain::path_of(lines[number], static_cast<uint32_t>(number), pack);
     if (path.places.size() < 2) continue;
     LatticeLine line(std::move(path.places), path.has_heights, path.number);
     const Extent extent = extent_of(line);
+    is_near = is_near || extent.meets(all);
     lines_.push_back({std::move(line), extent});
   }
+  if (!is_near) terrain::refuse_lines_elsewhere();
 }
 
 BorderPins TiledLines::pins_on(const TileGrid& grid, const TileBox& border) const {
@@ -334,8 +338,10 @@ uint64_t TiledLines::fingerprint() const {
 }
 
 std::shared_ptr<const TiledLines> tiled_lines(const std::vector<RealLine>& lines,
-                                              const Placement& pack) {
-  return lines.empty() ? nullptr : std::make_shared<TiledLines>(lines, pack);
+                                              const Placement& pack, const Raster& frame) {
+  if (lines.empty()) return nullptr;
+  return std::make_shared<TiledLines>(lines, pack,
+                                      TileBox{0, 0, frame.width - 1, frame.height - 1});
 }
 
 void expect_breaklines_possible(const LatticeOptions& options, const Raster& frame) {

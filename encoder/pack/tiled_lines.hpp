@@ -32,8 +32,8 @@ struct LinesInTile {
 // have the same ones.
 class TiledLines {
  public:
-  // Throws Error as path_of does.
-  TiledLines(const std::vector<RealLine>& lines, const Placement& pack);
+  // Throws Error as path_of does, and if no line is near the box of all tiles.
+  TiledLines(const std::vector<RealLine>& lines, const Placement& pack, const TileBox& all);
 
   // The border runs from corner to corner of tiles. O(places of lines nearby).
   BorderPins pins_on(const TileGrid& grid, const TileBox& border) const;
@@ -57,9 +57,9 @@ class TiledLines {
   std::vector<Line> lines_;
 };
 
-// Nothing without lines.
+// Nothing without lines. The frame is that of the pack's raster.
 std::shared_ptr<const TiledLines> tiled_lines(const std::vector<RealLine>& lines,
-                                              const Placement& pack);
+                                              const Placement& pack, const Raster& frame);
 
 // Throws Error if packs of such a raster cannot have breaklines with the options.
 void expect_breaklines_possible(const LatticeOptions& options, const Raster& frame);

@@ -112,7 +112,7 @@ PackPlan plan_of(const PackFile& old, const RasterReader& raster, const PackOpti
                  const RasterScan& scanned, const std::vector<RealLine>& breaklines) {
   const Lattice lattice = post_lattice_at(raster.frame(), scanned.heights,
                                           old.metadata().placement.z, first_fit(options.lattice));
-  const auto lines = tiled_lines(breaklines, lattice.placement);
+  const auto lines = tiled_lines(breaklines, lattice.placement, raster.frame());
   return {{raster, lattice, options.lattice, old.grid(), nullptr, lines},
           options,
           old.grid().width,

@@ -262,12 +262,19 @@ void add_parts(const LineGround& ground, const LinePath& path, std::vector<Latti
   LineCutter(ground, path.has_heights, path.number, lines).cut(path.places);
 }
 
+void refuse_lines_elsewhere() {
+  throw Error(parameter("breaklines") +
+              ": no line lies on the terrain; compare the order and the system of their " +
+              "coordinates with the terrain's, or leave the option out");
+}
+
 std::vector<LatticeLine> lines_over(const LineGround& ground, const std::vector<RealLine>& lines,
                                     const Placement& lattice) {
   std::vector<LatticeLine> all;
   for (std::size_t number = 0; number < lines.size(); ++number) {
     add_parts(ground, path_of(lines[number], static_cast<uint32_t>(number), lattice), all);
   }
+  if (all.empty() && !lines.empty()) refuse_lines_elsewhere();
   return all;
 }
 

@@ -105,7 +105,11 @@ LinePath path_of(const RealLine& line, uint32_t number, const Placement& lattice
 // Adds the parts of a line that count.
 void add_parts(const LineGround& ground, const LinePath& path, std::vector<LatticeLine>& lines);
 
-// Takes lines to a lattice, without the parts that lie elsewhere. Throws Error as path_of does.
+// Throws Error: no line is where the terrain is.
+[[noreturn]] void refuse_lines_elsewhere();
+
+// Takes lines to a lattice, without the parts that lie elsewhere. Throws Error as path_of does, and
+// if all of them do.
 std::vector<LatticeLine> lines_over(const LineGround& ground, const std::vector<RealLine>& lines,
                                     const Placement& lattice);
 

@@ -238,7 +238,8 @@ class Driver(unittest.TestCase):
             source = ogr.GetDriverByName("GPKG").CreateDataSource(self.path(name))
             layer = source.CreateLayer("one", geom_type=ogr.wkbUnknown)
             if field is not None:
-                layer.CreateField(ogr.FieldDefn(field[0], ogr.OFTString))
+                kind = ogr.OFTString if isinstance(field[1], str) else ogr.OFTInteger
+                layer.CreateField(ogr.FieldDefn(field[0], kind))
             for text in texts:
                 feature = ogr.Feature(layer.GetLayerDefn())
                 if field is not None:
@@ -255,6 +256,7 @@ class Driver(unittest.TestCase):
             ("AREA", self.path("nosuch.gpkg"), "nosuch.gpkg: has no polygons, lines or points that GDAL reads"),
             ("ERROR_MAP", self.path("nosuch.gpkg"), "nosuch.gpkg: is neither a raster of bounds nor a file of"),
             ("BREAKLINES", geometries("class.gpkg", line, line, field=("class", "wal")), "class.gpkg:1: 'wal' is not a class"),
+            ("BREAKLINES", geometries("number.gpkg", line, field=("class", 3)), "number.gpkg:1: '3' is not a class of lines"),
             ("OBSTACLES", geometries("top.gpkg", "POINT (9 9)", field=("top", "tall")), "top.gpkg:1: top is not a number"),
         )
         for option, path, words in rows:

@@ -74,7 +74,7 @@ def run(program, folder, command):
     if words[-1].startswith(">"):
         printed = open(folder / words.pop()[1:], "wb")
     result = subprocess.run([*program, *words], cwd=folder, stdin=given, stdout=printed or subprocess.PIPE,
-                            stderr=subprocess.PIPE, timeout=300)
+                            stderr=subprocess.PIPE, timeout=1200)
     for file in filter(None, (given, printed)):
         file.close()
     return result.returncode, result.stdout, result.stderr

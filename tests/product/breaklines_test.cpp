@@ -734,4 +734,34 @@ TEST_CASE("breaklines: what cannot be kept is refused") {
                  "the terrain at "));
 }
 
+TEST_CASE("breaklines: lines that all lie elsewhere are refused, by each command") {
+  const Session session;
+  write_terrain(session, 10);
+  session.write("l.csv", "2050 1050\n2300 1500\n\n2050 1060\n2300 1510\n");  // y before x
+  const std::string text = "breaklines: no line lies on the terrain; compare the order";
+  const std::string options = "t.asc --units metre --max-error 9 ";
+  for (const char* output : {"o.mtin", "o.mtp"}) {
+    CHECK(contains(session.failure(join({"encode ", options, "--breaklines l.csv -o ", output})),
+                   text));
+    REQUIRE(session.run(join({"encode ", options, "-o ", output})).code == 0);
+    CHECK(contains(
+        session.failure(join({"verify ", output, " t.asc --units metre --breaklines l.csv"})),
+        text));
+  }
+  CHECK(contains(session.failure("plan " + options + "--breaklines l.csv"), text));
+  CHECK(contains(session.failure("update o.mtp t.asc --units metre --breaklines l.csv -o n.mtp"),
+                 text));
+}
+
+TEST_CASE("breaklines: a number is no class") {
+  const Session session;
+  write_terrain(session, 10);
+  session.write("l.geojson",
+                R"({"type":"Feature","properties":{"class":3},"geometry":{"type":"LineString",)"
+                R"("coordinates":[[1050,2050],[1500,2300]]}})");
+  CHECK(contains(
+      session.failure("encode t.asc --units metre --max-error 9 --breaklines l.geojson -o o.mtin"),
+      "l.geojson:1: '3' is not a class of lines; use one of "));
+}
+
 }  // namespace microtin::breaklines_test
