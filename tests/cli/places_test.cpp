@@ -56,6 +56,15 @@ TEST_CASE("places: a grid's .prj states its system and units, decode writes an e
   CHECK(session.read("t.prj") == kZone);
 }
 
+TEST_CASE("places: the suffix of a .prj may be in capitals") {
+  for (const char* const name : {"t.PRJ", "t.Prj"}) {
+    const Session session;
+    session.write("t.asc", kPlacedGrid);
+    session.write(name, kZone);
+    CHECK(contains(session.run("encode t.asc -o t.mtin").out, "units: x and y metre, z metre\n"));
+  }
+}
+
 TEST_CASE("places: a .prj that is none is refused, or what is asked for decides") {
   const Session session;
   session.write("t.asc", kPlacedGrid);

@@ -127,6 +127,11 @@ class Streams(unittest.TestCase):
         self.assertAlmostEqual(tin.height_at(3, 4), hills()[ROWS - 5, 3])
         self.assertEqual(tin.height_at([[1], [2]], [3, 4, 5]).shape, (2, 3))
         self.assertTrue(numpy.isnan(tin.height_at(-1, 0)))
+        masked = numpy.ma.array([1, 2, 3], mask=[False, True, False])
+        self.assertEqual(numpy.isnan(tin.height_at(masked, 4)).tolist(), [False, True, False])
+        self.assertEqual(numpy.isnan(tin.gradient_at(4, masked)[0]).tolist(), [False, True, False])
+        with self.assertRaisesRegex(microtin.Error, "not a number"):
+            tin.profile(numpy.ma.array([1, 2], mask=[True, False]), (3, 4))
         self.assertEqual(tin.height_at([], []).shape, (0,))
 
     def test_cells(self):
@@ -472,6 +477,8 @@ class Files(unittest.TestCase):
             microtin.encode(self.cells, error_map=hills())
         with self.assertRaisesRegex(microtin.Error, "nosuch.asc"):
             microtin.encode([self.path("nosuch.asc")])
+        with self.assertRaisesRegex(microtin.Error, "use a str for a path"):
+            microtin.encode(b"n.asc", 5)
         with self.assertRaisesRegex(microtin.Error, "files are a path, or a list of paths"):
             microtin.plan_shards(hills(), 2)
         with self.assertRaisesRegex(microtin.Error, "count: 0 is out of range"):

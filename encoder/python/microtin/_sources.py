@@ -123,6 +123,8 @@ def source_of(
     nodata: Optional[float],
     error_map: Optional[ErrorMap],
 ) -> Source:
+    if isinstance(array, bytes):
+        raise Error("bytes are neither an array nor a path; use a str for a path")
     if paths_of(array) is None:
         return _source_from_array(array, transform, crs, nodata, error_map)  # type: ignore[arg-type]
     if transform is not None or nodata is not None or (crs is not None and epsg_of(crs) is None):

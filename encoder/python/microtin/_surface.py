@@ -23,6 +23,12 @@ _MISSING = {0: None, 1: "outside", 2: "void"}
 _SIDES = (None, "both", "never_below", "never_above")
 
 
+def _coordinates(places: ArrayLike) -> Any:
+    """As 64-bit floats, where masked ones are NaN."""
+    numbers: Any = numpy.asarray(places, numpy.float64)
+    return numpy.where(places.mask, numpy.nan, numbers) if isinstance(places, numpy.ma.MaskedArray) else numbers
+
+
 def decode(source: Union[bytes, bytearray, memoryview, Path]) -> "Surface":
     """Reads a stream or a pack: its bytes, or the path of a file. A stream is decoded at once, tiles of a pack when they are
     asked for. Raises Error if it is damaged or none of them."""
@@ -143,8 +149,9 @@ class Surface:
             raise IndexError(f"there are {self.tiles[0]} x {self.tiles[1]} tiles")
 
     def height_at(self, xs: ArrayLike, ys: ArrayLike) -> Any:
-        """Heights of the exact plane at places: an array of the shape that xs and ys have together, or a float for two numbers. NaN outside
-        and in voids. About 0.3 us each, and the decoding of the tiles that are needed."""
+        """Heights of the exact plane at places: an array of the shape that xs and ys have together, or a float for two
+        numbers. NaN outside, in voids, and where a coordinate is masked. About 0.3 us each, and the decoding of the
+        tiles that are needed."""
         return self._at(library.microtin_surface_heights, xs, ys, 1)[0]
 
     def gradient_at(self, xs: ArrayLike, ys: ArrayLike) -> Tuple[Any, Any]:
@@ -168,7 +175,7 @@ class Surface:
         return aspect if numpy.ndim(aspect) else float(aspect)
 
     def _at(self, write: Callable[..., None], xs: ArrayLike, ys: ArrayLike, numbers: int) -> Sequence[Any]:
-        x, y = numpy.broadcast_arrays(*(numpy.asarray(places, numpy.float64) for places in (xs, ys)))
+        x, y = numpy.broadcast_arrays(*(_coordinates(places) for places in (xs, ys)))
         x, y = numpy.ascontiguousarray(x), numpy.ascontiguousarray(y)
         found: List[Any] = [numpy.empty(x.shape) for _ in range(numbers)]
         pointers = (places.ctypes.data_as(_library.Doubles) for places in (x, y, *found))
@@ -183,7 +190,7 @@ class Surface:
 
     def bounds_on_line(self, begin: ArrayLike, end: ArrayLike) -> HeightBounds:
         """Between which heights the straight line between two positions (x, y) lies, as `bounds_in_box`."""
-        ends = [numpy.asarray(position, numpy.float64) for position in (begin, end)]
+        ends = [_coordinates(position) for position in (begin, end)]
         if any(position.shape != (2,) for position in ends):
             raise Error("an end of a line is a pair of x and y")
         return self._height_bounds(library.microtin_surface_bounds_on_line, *ends[0], *ends[1])
@@ -200,7 +207,7 @@ class Surface:
         """The heights along the straight line between two positions (x, y), which may lie outside. In degrees the line takes
         the shorter way around the Earth, and is straight in degrees. Raises Error if a position is not a number, or far from
         the surface."""
-        ends = [numpy.asarray(position, numpy.float64) for position in (begin, end)]
+        ends = [_coordinates(position) for position in (begin, end)]
         if any(position.shape != (2,) for position in ends):
             raise Error("an end of a profile is a pair of x and y")
         found = _library.Profile()
@@ -235,7 +242,7 @@ class Surface:
 
         The model and its error: encoder/docs/profiles.md. Takes some 0.1 ms for a line across 100 triangles, and the
         decoding of tiles. Raises Error if a number is out of range."""
-        first, second = numpy.broadcast_arrays(*(numpy.asarray(ends, numpy.float64) for ends in (begin, end)))
+        first, second = numpy.broadcast_arrays(*(_coordinates(ends) for ends in (begin, end)))
         if first.ndim == 0 or first.shape[-1] != 3:
             raise Error("an end of a line of sight is x, y and height")
         for above in (begin_above, end_above):
