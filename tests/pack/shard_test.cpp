@@ -245,6 +245,24 @@ TEST_CASE("packs: tiles become smaller until none has too many vertices") {
   CHECK(most > 17);
 }
 
+TEST_CASE("packs: planned tiles have most of the vertices allowed, and are planned once") {
+  for (const Search search : {Search::kFast, Search::kNormal}) {
+    for (const uint32_t allowed : {100u, 150u}) {
+      PackOptions options = pack_options(2, allowed);
+      options.simplify.search = search;
+      uint32_t plans = 0, most = 0;
+      encode_pack(
+          RasterInMemory(rough_raster(241, 225)), options, 0,
+          [&](const PackPlan&) { return plans++, 0u; },
+          [&](uint32_t, EncodedTile&& encoded) {
+            most = std::max(most, encoded.summary.vertices);
+          });
+      CHECK(plans == 1);
+      CHECK(most > allowed * 3 / 4);
+    }
+  }
+}
+
 TEST_CASE("packs: a shard whose tile is too large prints the size of tiles to try") {
   const RasterInMemory raster(rough_raster(61, 53));
   PackOptions options = pack_options(2, 40);
