@@ -348,8 +348,8 @@ void add_preparation(CLI::App& command, Preparation& preparation, encoder::Optio
       ->needs(level);
 }
 
-void add_look(CLI::App& app, Action& action, const std::string& name,
-              const std::string& description, void (*run)(const std::string&, bool)) {
+CLI::App& add_look(CLI::App& app, Action& action, const std::string& name,
+                   const std::string& description, void (*run)(const std::string&, bool)) {
   struct Request {
     std::string input;
     bool json = false;
@@ -361,6 +361,7 @@ void add_look(CLI::App& app, Action& action, const std::string& name,
   add_json(command, request->json);
   command.callback(
       [request, &action, run] { action = [request, run] { run(request->input, request->json); }; });
+  return command;
 }
 
 }  // namespace microtin::cli

@@ -131,8 +131,8 @@ void add_obstacles(CLI::App& command, encoder::Options& options);
 void add_preparation(CLI::App& command, Preparation& preparation, encoder::Options& options);
 
 // Defines a command that prints what a stream or a pack is like.
-void add_look(CLI::App& app, Action& action, const std::string& name,
-              const std::string& description, void (*run)(const std::string&, bool));
+CLI::App& add_look(CLI::App& app, Action& action, const std::string& name,
+                   const std::string& description, void (*run)(const std::string&, bool));
 
 }  // namespace microtin::cli
 

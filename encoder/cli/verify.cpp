@@ -266,12 +266,18 @@ void add_verify(CLI::App& app, Action& action) {
   add_breaklines(command, request->options, "Fail also if edges do not follow");
   add_obstacles(command, request->options);
   add_json(command, request->json);
+  command.footer(
+      "The exit code is 1, after the report, if the file does not keep its bound or what an option "
+      "asks for.");
   command.callback([request, &action] { action = [request] { run_verify(*request); }; });
 }
 
 void add_check(CLI::App& app, Action& action) {
   add_look(app, action, "check",
-           "Decode all of a stream or a pack, and list the tiles that cannot be used", run_check);
+           "Decode all of a stream or a pack, and list the tiles that cannot be used", run_check)
+      .footer(
+          "The exit code is 1 if a stream, or a tile of a pack, cannot be used. The report lists "
+          "such tiles.");
 }
 
 void add_diff(CLI::App& app, Action& action) {
@@ -288,6 +294,9 @@ void add_diff(CLI::App& app, Action& action) {
       ->required()
       ->type_name(kFile);
   add_json(command, request->json);
+  command.footer(
+      "The exit code is 1, after the report, if a tile differs. A header that differs is reported, "
+      "but is no failure.");
   command.callback([request, &action] {
     action = [request] { run_diff(request->first, request->second, request->json); };
   });
