@@ -106,6 +106,54 @@ TEST_CASE_TEMPLATE("requests: the own place comes first, the way ahead next", Sl
   CHECK(microtin_requests_pending(&here.requests) == 0);
 }
 
+TEST_CASE_TEMPLATE("requests: they and a path search take turns after each tile", Slots, MeshSlots,
+                   CompactSlots) {
+  Served<Slots> here(3);
+  const Slots whole(kTiles * kTiles, 400);
+  for (uint32_t i = 0; i < kTiles * kTiles; ++i) {
+    whole.load(here.card, middle(i % kTiles, i / kTiles));
+  }
+  const int64_t end = int64_t{kTiles} * kSide * 256;
+  // It falls: no tile is ruled out.
+  const microtin_path path = {{0, 0, end, end}, 1 << 23, -(1 << 23), 0};
+  microtin_path_clearance expected;
+  REQUIRE(whole.path_clearance(path, &expected, 0) == MICROTIN_QUERY_OK);
+
+  const auto goes_on = [](microtin_status status) {
+    return status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT;
+  };
+  microtin_path_search search{};
+  bool is_searching = false, is_found = false;
+  uint32_t moves = 0, found = 0;
+  for (uint32_t turn = 0; turn < 100000 && !is_found; ++turn) {
+    if (turn % 400 == 0) {
+      const microtin_segment place = middle(moves * 3 % kTiles, moves * 5 % kTiles);
+      here.add(place, MICROTIN_PRIORITY_HERE);
+      ++moves;
+    }
+    if (!is_searching) {
+      is_searching = !goes_on(here.serve(5));
+      found += is_searching ? 1 : 0;
+    } else {
+      const uint32_t tiles = search.tiles;
+      microtin_pack_read_once(here.device.pack, Card::read, &here.card);
+      const microtin_status status = here.device.search_path(path, 0, &search, 5);
+      is_found = status == MICROTIN_STATUS_OK;
+      is_searching = goes_on(status) && search.tiles == tiles;
+      REQUIRE((is_found || goes_on(status)));
+    }
+  }
+  REQUIRE(is_found);
+  CHECK(search.tiles >= kTiles);
+  CHECK(search.decoded > kTiles);
+  CHECK(search.clearance.least == expected.least);
+  CHECK(search.clearance.least_along == expected.least_along);
+  CHECK(moves > 3);
+  CHECK(found > moves);
+  CHECK(here.settle() == MICROTIN_STATUS_OK);
+  CHECK(here.knows(middle((moves - 1) * 3 % kTiles, (moves - 1) * 5 % kTiles)));
+}
+
 TEST_CASE_TEMPLATE("requests: no tile gives way to a request that is less important", Slots,
                    MeshSlots, CompactSlots) {
   Served<Slots> here(4);
