@@ -166,7 +166,7 @@ microtin_query_result microtin_compact_height_at(const microtin_compact* compact
     RingCursor cursor = start_at(r, number);
     const bool arrived = walk_in_place(cursor, p, limit);
     *hint = number_of(cursor);
-    if (arrived) return cursor.is_ghost() ? MICROTIN_QUERY_OUTSIDE : answer_at(cursor, p, height);
+    if (arrived) return cursor.is_ghost() ? MICROTIN_QUERY_OUTSIDE : result_at(cursor, p, height);
     if (step_limit != 0) return MICROTIN_QUERY_STEP_LIMIT;
     // Where nothing is nearer than the hub that it turns around, it had better turn on.
     const uint32_t hub = cursor.end(), near = number_near(r, p, hub);

@@ -23,7 +23,7 @@ struct Crossing {
   Along along;
   int64_t share;
   int32_t height, other;  // 16 fractional bits
-  uint8_t answer;         // a microtin_query_result: OK, or why there is no height
+  uint8_t result;         // a microtin_query_result: OK, or why there is no height
   uint8_t before;         // OK: there are heights from the crossing before to this one; or why not
 };
 

@@ -85,28 +85,28 @@ class TrianglesAt {
 };
 
 // Looks at the triangles of a terrain that hold a position; the terrain lies at (x, y) of others.
-// The answer is that of a height there.
+// The result is that of a height there.
 template <class Form>
 microtin_query_result look_at_place(const Form& form, LocalPoint at, int64_t x, int64_t y,
                                     uint32_t step_limit, uint32_t* hint, BestTriangle* best) {
   int32_t height = 0;
-  const microtin_query_result answer = form.height_at(at, step_limit, hint, &height);
-  if (answer != MICROTIN_QUERY_OK) return answer;
+  const microtin_query_result result = form.height_at(at, step_limit, hint, &height);
+  if (result != MICROTIN_QUERY_OK) return result;
   const Point corner = form.corner();
   const LocalPoint from = fine_point(corner);
   const FinePoint p = {at.x - from.x, at.y - from.y};
   TrianglesAt<Form>(form, p, 3 * (x + corner.x), 3 * (y + corner.y), best)
       .look_from(form.at(*hint));
-  return answer;
+  return result;
 }
 
 template <class Form>
 microtin_query_result gradient_in_terrain(const Form& form, int32_t x, int32_t y, uint32_t* hint,
                                           microtin_gradient* gradient, uint32_t step_limit) {
   BestTriangle best = {};
-  const microtin_query_result answer =
+  const microtin_query_result result =
       look_at_place(form, LocalPoint{x, y}, 0, 0, step_limit, hint, &best);
-  if (answer != MICROTIN_QUERY_OK) return answer;
+  if (result != MICROTIN_QUERY_OK) return result;
   if (!best.is_found) return MICROTIN_QUERY_VOID;  // a vertex among voids has a height alone
   *gradient = best.gradient;
   *hint = best.number;

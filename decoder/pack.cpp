@@ -257,7 +257,8 @@ microtin_status handle_stream(microtin_pack& p) {
     p.sum = stream_hash(p.sum, p.buffer, p.buffered);
     p.left -= p.buffered;
   }
-  return p.slot != nullptr ? MICROTIN_STATUS_STEP_LIMIT : hear_decoder(p, MICROTIN_STATUS_OK);
+  return p.slot != nullptr ? MICROTIN_STATUS_STEP_LIMIT
+                           : take_decoder_status(p, MICROTIN_STATUS_OK);
 }
 
 // Handles what is in the buffer, if it is complete. OK: a tile is ready, or refused, or lacks a
@@ -372,17 +373,17 @@ uint8_t* landing_of(microtin_pack& p) {
 #endif
 }
 
-// What follows from what storage said. NEED_INPUT: go on; OK: a tile was refused.
-microtin_status hear_storage(microtin_pack& p) {
-  const Storage said = p.storage;
+// What follows from what storage reported. NEED_INPUT: go on; OK: a tile was refused.
+microtin_status take_storage_result(microtin_pack& p) {
+  const Storage reported = p.storage;
   p.storage = Storage::kWell;
   // Only the first of the entries that one read brings is needed.
-  if (said != Storage::kWell && p.stage == PackStage::kEntry && p.buffered >= kPackEntryBytes) {
+  if (reported != Storage::kWell && p.stage == PackStage::kEntry && p.buffered >= kPackEntryBytes) {
     p.wanted = p.buffered;
     return MICROTIN_STATUS_NEED_INPUT;
   }
-  if (said == Storage::kFailed) return MICROTIN_STATUS_IO;
-  if (said == Storage::kEnds) {
+  if (reported == Storage::kFailed) return MICROTIN_STATUS_IO;
+  if (reported == Storage::kEnds) {
     return p.has_header ? refuse_tile(p, MICROTIN_STATUS_TRUNCATED)
                         : fail_pack(p, MICROTIN_STATUS_TRUNCATED);
   }
@@ -391,7 +392,7 @@ microtin_status hear_storage(microtin_pack& p) {
 
 }  // namespace
 
-microtin_status hear_decoder(microtin_pack& p, microtin_status status) {
+microtin_status take_decoder_status(microtin_pack& p, microtin_status status) {
   const bool is_decoded = status == MICROTIN_STATUS_OK;
   // What follows the last section counts for the hash.
   if (p.left != 0 && (is_decoded || status == MICROTIN_STATUS_NEED_INPUT)) {
@@ -412,8 +413,8 @@ microtin_status go_on(microtin_pack& p, const microtin_segment& segment) {
   if (!is_legal(segment)) return MICROTIN_STATUS_ARGUMENT;
   if (kPins) p.is_waiting = false;
   if (!p.has_header) {
-    const microtin_status heard = hear_storage(p);
-    if (heard != MICROTIN_STATUS_NEED_INPUT) return heard;
+    const microtin_status taken = take_storage_result(p);
+    if (taken != MICROTIN_STATUS_NEED_INPUT) return taken;
     const microtin_status status = handle(p);
     if (!p.has_header) return status;
   }
@@ -425,7 +426,7 @@ microtin_status go_on(microtin_pack& p, const microtin_segment& segment) {
       give_up(p);
       p.storage = Storage::kWell;  // it was not asked for this segment
     }
-    status = hear_storage(p);
+    status = take_storage_result(p);
     if (status == MICROTIN_STATUS_OK) continue;
     if (status == MICROTIN_STATUS_IO) return status;
     if (p.stage == PackStage::kIdle) {
@@ -455,7 +456,7 @@ microtin_status bring_entry(microtin_pack& p, uint32_t tile) {
   const bool is_absent = p.storage == Storage::kEnds && p.buffered < kPackEntryBytes;
   microtin_status status = MICROTIN_STATUS_TRUNCATED;
   if (!is_absent) {
-    status = hear_storage(p);
+    status = take_storage_result(p);
     if (status != MICROTIN_STATUS_NEED_INPUT || p.buffered < p.wanted) return status;
     status = take_entry(p);
   }

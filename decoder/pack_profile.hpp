@@ -61,9 +61,9 @@ class PackProfile {
         static_cast<uint8_t>(worse(static_cast<microtin_query_result>(state_.before), before));
   }
 
-  void report(int32_t along, microtin_query_result answer, int32_t height) {
-    *crossing_ = microtin_crossing{along, answer == MICROTIN_QUERY_OK ? height : INT32_MIN,
-                                   static_cast<uint32_t>(answer), state_.before};
+  void report(int32_t along, microtin_query_result result, int32_t height) {
+    *crossing_ = microtin_crossing{along, result == MICROTIN_QUERY_OK ? height : INT32_MIN,
+                                   static_cast<uint32_t>(result), state_.before};
     state_.before = MICROTIN_QUERY_OK;
   }
 
@@ -74,8 +74,8 @@ class PackProfile {
 
   void begin() {
     int32_t height = 0;
-    const microtin_query_result answer = height_at(segment_.x, segment_.y, &height);
-    report(0, answer, height);
+    const microtin_query_result result = height_at(segment_.x, segment_.y, &height);
+    report(0, result, height);
     TouchedTiles tiles(p_.header.grid, segment_);
     state_.has_entry = is_inside(p_, segment_.x, segment_.y);
     set_phase(state_.has_entry != 0 ? ProfilePhase::kTiles : ProfilePhase::kEntering);
@@ -90,9 +90,9 @@ class PackProfile {
     set_phase(ProfilePhase::kEnd);
     if (!is_inside(p_, segment_.x_end, segment_.y_end)) note(MICROTIN_QUERY_OUTSIDE);
     int32_t height = 0;
-    const microtin_query_result answer = height_at(segment_.x_end, segment_.y_end, &height);
+    const microtin_query_result result = height_at(segment_.x_end, segment_.y_end, &height);
     const uint8_t before = state_.before;
-    report(static_cast<int32_t>(MICROTIN_ALONG_END), answer, height);
+    report(static_cast<int32_t>(MICROTIN_ALONG_END), result, height);
     state_.before = before;  // for another call
   }
 

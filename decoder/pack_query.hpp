@@ -187,17 +187,17 @@ microtin_query_result height_in_pack(const microtin_pack& p, int64_t x, int64_t 
   if ((p.work != nullptr) != Form::kIsCompact) return MICROTIN_QUERY_WRONG_PACK_KIND;
   if (!has_header(p)) return MICROTIN_QUERY_NOT_LOADED;
   if (!is_inside(p, x, y)) return MICROTIN_QUERY_OUTSIDE;
-  microtin_query_result answer = MICROTIN_QUERY_VOID;
+  microtin_query_result result = MICROTIN_QUERY_VOID;
   const microtin_segment here = {x, y, x, y};
   for (TouchedTiles tiles(p.header.grid, here); !tiles.at_end(); tiles.next()) {
-    *terrain = terrain_of(p, tiles.number(), &answer);
+    *terrain = terrain_of(p, tiles.number(), &result);
     if (*terrain == nullptr) continue;
     const LocalPoint at = local(tiles.box(), x, y);
     if (Form(*terrain).height_at(at, 0, hint, height) == MICROTIN_QUERY_OK)
       return MICROTIN_QUERY_OK;
     unpin(p, *terrain);
   }
-  return answer;
+  return result;
 }
 
 template <class Form>
@@ -230,10 +230,10 @@ inline bool is_place(const microtin_segment& segment) {
 template <class Form, class Add>
 microtin_query_result walk_place(const microtin_pack& p, const microtin_segment& segment,
                                  const Add& add, microtin_segment_state* state) {
-  microtin_query_result answer = MICROTIN_QUERY_VOID;
+  microtin_query_result result = MICROTIN_QUERY_VOID;
   bool is_known = false;
   for (TouchedTiles tiles(p.header.grid, segment); !tiles.at_end(); tiles.next()) {
-    const void* const terrain = terrain_of(p, tiles.number(), &answer);
+    const void* const terrain = terrain_of(p, tiles.number(), &result);
     if (terrain == nullptr) continue;
     const Pinned pinned(p, terrain);
     const Form form(terrain);
@@ -241,7 +241,7 @@ microtin_query_result walk_place(const microtin_pack& p, const microtin_segment&
     SegmentWalk<Form> walk(form, at, at, at, WalkStage::kSearch, form.hint(at));
     Crossing c;
     walk.step(false, &c);
-    if (c.answer != MICROTIN_QUERY_OK) continue;
+    if (c.result != MICROTIN_QUERY_OK) continue;
     Add tile_add = add;
     if (!tile_add.begin_terrain(form)) return MICROTIN_QUERY_NO_MARGIN;
     tile_add(walk, c, state);
@@ -249,7 +249,7 @@ microtin_query_result walk_place(const microtin_pack& p, const microtin_segment&
     tile_add(walk, c, state);
     is_known = true;
   }
-  return is_known ? MICROTIN_QUERY_OK : answer;
+  return is_known ? MICROTIN_QUERY_OK : result;
 }
 
 // Hands the crossings of a segment, tile by tile, to add(walk, crossing, state).
@@ -259,19 +259,19 @@ microtin_query_result walk_pack(const microtin_pack& p, const microtin_segment& 
   if (!is_legal(segment)) return MICROTIN_QUERY_OUTSIDE;
   if ((p.work != nullptr) != Form::kIsCompact) return MICROTIN_QUERY_WRONG_PACK_KIND;
   if (!has_header(p)) return MICROTIN_QUERY_NOT_LOADED;
-  microtin_query_result answer =
+  microtin_query_result result =
       is_inside(p, segment.x, segment.y) && is_inside(p, segment.x_end, segment.y_end)
           ? MICROTIN_QUERY_OK
           : MICROTIN_QUERY_OUTSIDE;
   if (is_place(segment)) {
-    return answer == MICROTIN_QUERY_OK ? walk_place<Form>(p, segment, add, state) : answer;
+    return result == MICROTIN_QUERY_OK ? walk_place<Form>(p, segment, add, state) : result;
   }
   for (TouchedTiles tiles(p.header.grid, segment); !tiles.at_end(); tiles.next()) {
     const microtin_query_result here = answer_of_tile<Form>(p, tiles, segment, add, state);
     if (here == MICROTIN_QUERY_NO_MARGIN) return here;
-    answer = worse(answer, here);
+    result = worse(result, here);
   }
-  return answer;
+  return result;
 }
 
 template <class Form>
@@ -280,9 +280,9 @@ microtin_query_result extremes_in_pack(const microtin_pack& p, const microtin_se
   clear(extremes);
   microtin_segment_state state = {};
   begin_extremes(&state);
-  const microtin_query_result answer = walk_pack<Form>(p, segment, AddToExtremes(), &state);
+  const microtin_query_result result = walk_pack<Form>(p, segment, AddToExtremes(), &state);
   get_extremes(state, extremes);
-  return answer;
+  return result;
 }
 
 template <class Form>
@@ -292,11 +292,11 @@ microtin_query_result clearance_in_pack(const microtin_pack& p, const microtin_p
   if (!has_legal_heights(path)) return MICROTIN_QUERY_OUTSIDE;
   microtin_segment_state state = {};
   begin_clearance(&state);
-  const microtin_query_result answer =
+  const microtin_query_result result =
       walk_pack<Form>(p, path.segment, AddToClearance(path, flags), &state);
-  if (answer == MICROTIN_QUERY_NO_MARGIN) return answer;
+  if (result == MICROTIN_QUERY_NO_MARGIN) return result;
   get_clearance(state, clearance);
-  return answer;
+  return result;
 }
 
 // A function of a position, as places.hpp has it.
@@ -327,17 +327,17 @@ microtin_query_result gradient_in_pack(const microtin_pack& p, int64_t x, int64_
   if ((p.work != nullptr) != Form::kIsCompact) return MICROTIN_QUERY_WRONG_PACK_KIND;
   if (!has_header(p)) return MICROTIN_QUERY_NOT_LOADED;
   if (!is_inside(p, x, y)) return MICROTIN_QUERY_OUTSIDE;
-  microtin_query_result answer = MICROTIN_QUERY_VOID;
+  microtin_query_result result = MICROTIN_QUERY_VOID;
   BestTriangle best = {};
   const microtin_segment here = {x, y, x, y};
   for (TouchedTiles tiles(p.header.grid, here); !tiles.at_end(); tiles.next()) {
-    const void* const terrain = terrain_of(p, tiles.number(), &answer);
+    const void* const terrain = terrain_of(p, tiles.number(), &result);
     if (terrain == nullptr) continue;
     const Pinned pinned(p, terrain);
     const TileBox box = tiles.box();
     look_at_place(Form(terrain), local(box, x, y), box.x, box.y, 0, hint, &best);
   }
-  if (!best.is_found) return answer;
+  if (!best.is_found) return result;
   *gradient = best.gradient;
   *hint = best.number;
   return MICROTIN_QUERY_OK;

@@ -72,7 +72,7 @@ struct BadTile {
   bool is_pinned() const { return false; }
 };
 
-// What storage said of the bytes wanted.
+// What storage reported of the bytes wanted.
 enum class Storage : uint8_t { kWell, kEnds, kFailed };
 
 }  // namespace microtin
@@ -230,9 +230,9 @@ microtin_status refuse_tile(microtin_pack& p, microtin_status why);
 // Gives up what is in hand, and returns the status.
 microtin_status fail_pack(microtin_pack& p, microtin_status status);
 
-// What follows from what the decoder said, but for STEP_LIMIT. OK: the tile is ready, or refused;
-// STEP_LIMIT: it is to be made compact next.
-microtin_status hear_decoder(microtin_pack& p, microtin_status status);
+// What follows from what the decoder returned, but for STEP_LIMIT. OK: the tile is ready, or
+// refused; STEP_LIMIT: it is to be made compact next.
+microtin_status take_decoder_status(microtin_pack& p, microtin_status status);
 
 // Decodes what is in the buffer: in place, so that only the caller's frame lies above the
 // decoder's.
@@ -241,7 +241,7 @@ MICROTIN_IN_PLACE inline microtin_status decode(microtin_pack& p, uint32_t step_
   const microtin_status status = microtin_decoder_feed(
       p.decoder, p.buffer + p.fed, static_cast<size_t>(p.buffered - p.fed), &used, step_limit);
   p.fed = static_cast<uint8_t>(p.fed + used);
-  return status == MICROTIN_STATUS_STEP_LIMIT ? status : hear_decoder(p, status);
+  return status == MICROTIN_STATUS_STEP_LIMIT ? status : take_decoder_status(p, status);
 }
 
 }  // namespace microtin

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Questions about many places, whatever knows their heights: a function of x, y, hint and height
-// that answers as microtin_mesh_height_at does.
+// that returns heights as microtin_mesh_height_at does.
 #ifndef MICROTIN_DECODER_PLACES_HPP
 #define MICROTIN_DECODER_PLACES_HPP
 
@@ -9,12 +9,12 @@
 
 namespace microtin {
 
-// How bad an answer is. No switch: compilers make tables of those, which AVR would keep in RAM.
-inline int rank(microtin_query_result answer) {
-  if (answer == MICROTIN_QUERY_NOT_LOADED) return 4;
-  if (answer == MICROTIN_QUERY_BAD_TILE) return 3;
-  if (answer == MICROTIN_QUERY_OUTSIDE) return 2;
-  return answer == MICROTIN_QUERY_VOID ? 1 : 0;
+// How bad a result is. No switch: compilers make tables of those, which AVR would keep in RAM.
+inline int rank(microtin_query_result result) {
+  if (result == MICROTIN_QUERY_NOT_LOADED) return 4;
+  if (result == MICROTIN_QUERY_BAD_TILE) return 3;
+  if (result == MICROTIN_QUERY_OUTSIDE) return 2;
+  return result == MICROTIN_QUERY_VOID ? 1 : 0;
 }
 
 inline microtin_query_result worse(microtin_query_result a, microtin_query_result b) {
@@ -37,18 +37,18 @@ MICROTIN_ONE_COPY inline int16_t in_units(int32_t z, const microtin_axis& axis) 
   return static_cast<int16_t>(height < INT16_MIN ? INT16_MIN : height);
 }
 
-// The answer for many positions, of which one more has an answer.
+// The result for many positions, of which one more has a result.
 inline microtin_query_result joined(microtin_query_result all, microtin_query_result here) {
   return here != MICROTIN_QUERY_OK && all != MICROTIN_QUERY_NOT_LOADED ? here : all;
 }
 
-// Hands the answer and the height at each position of a grid to put(answer, height), row by row.
+// Hands the result and the height at each position of a grid to put(result, height), row by row.
 template <class HeightAt, class Put>
 microtin_query_result for_grid(const microtin_grid_spec& grid, const HeightAt& height_at,
                                const Put& put) {
   if (!is_within(grid.x, kSegmentMost) || !is_within(grid.y, kSegmentMost))
     return MICROTIN_QUERY_OUTSIDE;
-  microtin_query_result answer = MICROTIN_QUERY_OK;
+  microtin_query_result result = MICROTIN_QUERY_OK;
   uint32_t hint = 0;
   int64_t y = grid.y;  // below 2^40 + 2^47
   for (uint32_t row = 0; row < grid.rows; ++row, y += grid.dy) {
@@ -57,10 +57,10 @@ microtin_query_result for_grid(const microtin_grid_spec& grid, const HeightAt& h
       int32_t z = 0;
       const microtin_query_result here = height_at(x, y, &hint, &z);
       put(here, z);
-      answer = joined(answer, here);
+      result = joined(result, here);
     }
   }
-  return answer;
+  return result;
 }
 
 // The heights of a grid in whole units of the axis z, as microtin_pack_sample_grid returns them.
@@ -88,13 +88,13 @@ microtin_query_result grid_extremes(const microtin_grid_spec& grid, const Height
 template <class HeightAt>
 microtin_query_result heights_at(const microtin_position* positions, uint32_t count,
                                  const HeightAt& height_at, uint32_t* hint, int32_t* heights) {
-  microtin_query_result answer = MICROTIN_QUERY_OK;
+  microtin_query_result result = MICROTIN_QUERY_OK;
   for (uint32_t i = 0; i < count; ++i) {
     const microtin_query_result here = height_at(positions[i].x, positions[i].y, hint, heights + i);
     if (here != MICROTIN_QUERY_OK) heights[i] = INT32_MIN;
-    answer = joined(answer, here);
+    result = joined(result, here);
   }
-  return answer;
+  return result;
 }
 
 }  // namespace microtin

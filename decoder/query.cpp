@@ -76,7 +76,7 @@ microtin_query_result microtin_mesh_height_at(const microtin_mesh* mesh, int32_t
   *hint = t;
   if (!arrived) return MICROTIN_QUERY_STEP_LIMIT;
   if (is_ghost(m, t)) return MICROTIN_QUERY_OUTSIDE;
-  return answer_at(MeshCursor(*mesh, first_edge(t)), p, height);
+  return result_at(MeshCursor(*mesh, first_edge(t)), p, height);
 }
 
 microtin_query_result microtin_mesh_safe_heights_at(const microtin_mesh* mesh, int32_t x, int32_t y,

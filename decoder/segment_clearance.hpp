@@ -80,7 +80,7 @@ class AddToClearance {
   void operator()(const Walk& walk, const Crossing& c, microtin_segment_state* state) const {
     const bool was_low = state->is_low != 0 && c.along.part != 0;
     state->is_low = 0;
-    if (c.answer != MICROTIN_QUERY_OK || is_high(c, *state)) return;
+    if (c.result != MICROTIN_QUERY_OK || is_high(c, *state)) return;
     const int32_t clearance = clearance_at(walk, c);
     if (clearance < state->value[kLeast]) {
       state->value[kLeast] = clearance;

@@ -25,7 +25,7 @@ inline void set_value(int which, int32_t height, const Along& along,
 // An edge needs no division if neither end is higher, or lower, than all heights so far. The first
 // height is both, also the lowest that there can be: INT32_MIN.
 MICROTIN_ONE_COPY inline void add_to_extremes(const Crossing& c, microtin_segment_state* state) {
-  if (c.answer != MICROTIN_QUERY_OK) return;
+  if (c.result != MICROTIN_QUERY_OK) return;
   const int32_t highest = state->value[kHighest], lowest = state->value[kLowest];
   if (c.height <= highest && c.other <= highest && c.height >= lowest && c.other >= lowest) return;
   const int32_t height = height_of(c);

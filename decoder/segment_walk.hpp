@@ -140,16 +140,16 @@ class SegmentWalk {
   // The begin lies in the terrain's box, or else is outside.
   bool search(bool is_limited, Crossing* c) {
     int32_t height = 0;
-    microtin_query_result answer = form_.height_at(start_, is_limited ? 1u : 0u, &number_, &height);
-    if (answer == MICROTIN_QUERY_STEP_LIMIT) return false;
+    microtin_query_result result = form_.height_at(start_, is_limited ? 1u : 0u, &number_, &height);
+    if (result == MICROTIN_QUERY_STEP_LIMIT) return false;
     cursor_ = form_.at(number_);
     if (!starts_at_begin_) {
       if (cursor_.is_ghost()) cursor_.cross();
       walk(cursor_, FinePoint{begin_.x, begin_.y}, form_.triangles());
-      answer = MICROTIN_QUERY_OUTSIDE;
+      result = MICROTIN_QUERY_OUTSIDE;
     }
     stage_ = cursor_.is_ghost() ? WalkStage::kApproach : WalkStage::kTurn;
-    *c = Crossing{Along{0, 1}, -1, height, height, static_cast<uint8_t>(answer), MICROTIN_QUERY_OK};
+    *c = Crossing{Along{0, 1}, -1, height, height, static_cast<uint8_t>(result), MICROTIN_QUERY_OK};
     return true;
   }
 
@@ -296,7 +296,7 @@ class SegmentWalk {
 
   void set_end_height(Crossing* c) {
     stage_ = WalkStage::kEnded;
-    c->answer = static_cast<uint8_t>(answer_at(cursor_, end(), &c->height));
+    c->result = static_cast<uint8_t>(result_at(cursor_, end(), &c->height));
     c->other = c->height;
   }
 

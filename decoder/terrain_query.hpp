@@ -29,7 +29,7 @@ inline bool is_on_lattice(const microtin_segment& segment) {
 // bits: so a crossing costs no comparison.
 static_assert(MICROTIN_QUERY_OUTSIDE == 1 && MICROTIN_QUERY_VOID == 2, "they are different bits");
 inline void note_answer(const Crossing& c, microtin_segment_state* state) {
-  state->result |= static_cast<uint32_t>(c.answer | c.before);
+  state->result |= static_cast<uint32_t>(c.result | c.before);
 }
 
 inline microtin_query_result worst_answer(const microtin_segment_state& state) {
@@ -87,8 +87,8 @@ microtin_query_result next_in_profile(const Form& form, const microtin_segment& 
     is_found = walk.step(step_limit != 0, &c);
     if (!is_found) continue;
     along = rounded_down(c.along);
-    state->value[0] = c.answer == MICROTIN_QUERY_OK ? height_of(c) : INT32_MIN;
-    state->result = c.answer;
+    state->value[0] = c.result == MICROTIN_QUERY_OK ? height_of(c) : INT32_MIN;
+    state->result = c.result;
     state->is_low = c.before;
   }
   keep(walk, state);

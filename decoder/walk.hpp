@@ -91,10 +91,10 @@ MICROTIN_OUT_OF_LINE inline bool touches_terrain(Cursor cursor, FinePoint p) {
   return touches;
 }
 
-// The answer at p in the closed triangle, which is no ghost. A vertex always knows its own height;
+// The result at p in the closed triangle, which is no ghost. A vertex always knows its own height;
 // on an edge, terrain on either side is enough.
 template <class Cursor>
-inline microtin_query_result answer_at(const Cursor& cursor, FinePoint p, int32_t* height) {
+inline microtin_query_result result_at(const Cursor& cursor, FinePoint p, int32_t* height) {
   if (!cursor.has_terrain() && !touches_terrain(cursor, p)) return MICROTIN_QUERY_VOID;
   *height = height_in_triangle(cursor.vertex(cursor.corner(0)), cursor.vertex(cursor.corner(1)),
                                cursor.vertex(cursor.corner(2)), p);

@@ -143,20 +143,20 @@ static microtin_query_result height_of_post(microtin_ardupilot* terrain, microti
   microtin_spots* const spots = &terrain->spots;
   int64_t x, y, turn;
   int32_t height = 0;
-  microtin_query_result answer;
+  microtin_query_result result;
   if (!spots->has_info) return MICROTIN_QUERY_NOT_LOADED;
   turn = microtin_posts_turn(&terrain->block.posts, &spots->info);
   if (!microtin_posts_position(&terrain->block.posts, post, &spots->info, turn, &x, &y)) {
     return MICROTIN_QUERY_OUTSIDE;
   }
-  answer = microtin_spots_height_on(spots, x, y, &height);
-  if (answer == MICROTIN_QUERY_NOT_LOADED) {
+  result = microtin_spots_height_on(spots, x, y, &height);
+  if (result == MICROTIN_QUERY_NOT_LOADED) {
     const microtin_segment place = {x, y, x, y};
     microtin_requests_add(&spots->requests, &place, MICROTIN_PRIORITY_OTHER);
   }
   if (height < -32768000 || height > 32767000) return MICROTIN_QUERY_OUTSIDE;
   *metres = (int16_t)((height + 32768500) / 1000 - 32768);
-  return answer;
+  return result;
 }
 
 /* A group that is not all there leaves zeros. */

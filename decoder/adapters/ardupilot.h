@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/* ArduPilot's terrain functions, answered by a pack. Written from the declarations of
+/* ArduPilot's terrain functions, served by a pack. Written from the declarations of
  * libraries/AP_Terrain/AP_Terrain.h. No function waits; microtin_ardupilot_load and
  * microtin_ardupilot_check read, in the IO thread.
  *
@@ -59,7 +59,7 @@ microtin_status microtin_ardupilot_load(microtin_ardupilot* terrain, uint32_t st
 void microtin_ardupilot_set_position(microtin_ardupilot* terrain, int32_t lat, int32_t lng);
 
 /* The home of AHRS. AP_Terrain::height_amsl caches its height, and so does this adapter: the height
- * at exactly this place stays known from its first answer on. Difference: none. */
+ * at exactly this place stays known from its first result on. Difference: none. */
 void microtin_ardupilot_set_home(microtin_ardupilot* terrain, int32_t lat, int32_t lng);
 
 /* AP_Terrain::set_reference_location: the vehicle stands on the ground here, `altitude_cm` above

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/* INAV's terrain functions, answered by a pack. Written from the contract of
- * src/main/terrain/terrain_nav.h (INAV 10): an answer is a plain yes or no, values are written on
+/* INAV's terrain functions, served by a pack. Written from the contract of
+ * src/main/terrain/terrain_nav.h (INAV 10): a result is a plain yes or no, values are written on
  * yes alone, nothing waits, and what is missing is scheduled for loading.
  *
  * Places are in 1e-7 degrees. Not part of the library; float at the signatures only. */
@@ -51,7 +51,7 @@ microtin_status microtin_inav_load_card(microtin_inav* inav, microtin_card* card
 void microtin_inav_set_position(microtin_inav* inav, int32_t lat, int32_t lon);
 
 /* posControl.gpsOrigin. terrainUpdateTask keeps its height, and so does this adapter: the height at
- * exactly this place stays known from its first answer on. */
+ * exactly this place stays known from its first result on. */
 void microtin_inav_set_home(microtin_inav* inav, int32_t lat, int32_t lon);
 
 /* terrainNavIsHealthy: the last service found the card, home's height is known, and the height

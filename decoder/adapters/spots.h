@@ -204,8 +204,8 @@ static inline void microtin_spots_request_soon(microtin_spots* s, int64_t x, int
 static inline microtin_query_result microtin_spots_height_on(microtin_spots* s, int64_t x,
                                                              int64_t y, int32_t* millimetres) {
   int32_t height;
-  const microtin_query_result answer = MICROTIN_SPOTS_HEIGHT_AT(s->pack, x, y, &s->hint, &height);
-  if (answer != MICROTIN_QUERY_OK) return answer;
+  const microtin_query_result result = MICROTIN_SPOTS_HEIGHT_AT(s->pack, x, y, &s->hint, &height);
+  if (result != MICROTIN_QUERY_OK) return result;
   return microtin_axis_height(&s->info.z, height, 1000, millimetres) == MICROTIN_STATUS_OK
              ? MICROTIN_QUERY_OK
              : MICROTIN_QUERY_OUTSIDE;
@@ -222,11 +222,11 @@ static inline microtin_query_result microtin_spots_height(microtin_spots* s, mic
 
 /* The height; a missing tile is requested. 0: there is no height. */
 static inline int microtin_spots_ask(microtin_spots* s, microtin_spot at, int32_t* millimetres) {
-  const microtin_query_result answer = microtin_spots_height(s, at, millimetres);
-  if (answer == MICROTIN_QUERY_NOT_LOADED) {
+  const microtin_query_result result = microtin_spots_height(s, at, millimetres);
+  if (result == MICROTIN_QUERY_NOT_LOADED) {
     microtin_spots_request(s, at, at, MICROTIN_PRIORITY_OTHER);
   }
-  return answer == MICROTIN_QUERY_OK;
+  return result == MICROTIN_QUERY_OK;
 }
 
 /* The height at a latched place; it is kept from when it is known first. 0: not known yet. */
@@ -244,7 +244,7 @@ static inline int microtin_spots_ask_latch(microtin_spots* s, microtin_latch* la
 static inline int microtin_spots_ask_place(microtin_spots* s, microtin_spot at,
                                            int32_t* millimetres) {
   const microtin_latch* const home = &s->home;
-  microtin_query_result answer;
+  microtin_query_result result;
   microtin_segment place;
   if (home->has_place && home->at.latitude == at.latitude && home->at.longitude == at.longitude) {
     return microtin_spots_ask_latch(s, &s->home, millimetres);
@@ -252,13 +252,13 @@ static inline int microtin_spots_ask_place(microtin_spots* s, microtin_spot at,
   if (!microtin_spots_place(s, at, &place.x, &place.y)) return 0;
   place.x_end = place.x;
   place.y_end = place.y;
-  answer = microtin_spots_height_on(s, place.x, place.y, millimetres);
-  if (answer == MICROTIN_QUERY_OK) {
+  result = microtin_spots_height_on(s, place.x, place.y, millimetres);
+  if (result == MICROTIN_QUERY_OK) {
     microtin_spots_request_soon(s, place.x, place.y);
-  } else if (answer == MICROTIN_QUERY_NOT_LOADED) {
+  } else if (result == MICROTIN_QUERY_NOT_LOADED) {
     microtin_requests_add(&s->requests, &place, MICROTIN_PRIORITY_OTHER);
   }
-  return answer == MICROTIN_QUERY_OK;
+  return result == MICROTIN_QUERY_OK;
 }
 
 /* The sine of an angle in 1/100 degree, times 65536; within 10 of it. A polynomial with x, x^3 and

@@ -78,9 +78,9 @@ static microtin_pack* pack;
 /* All of it is volatile: no compiler may move what is written past a flag that tells of it. */
 static volatile struct {
   uint8_t is_set;    /* the vehicle is at a place; the interrupt may look */
-  uint8_t is_wanted; /* all is decoded that can be: the next answer is the last one */
+  uint8_t is_wanted; /* all is decoded that can be: the next result is the last one */
   int64_t x, y;
-  microtin_query_result answer;
+  microtin_query_result result;
   int32_t height; /* that was answered here */
   uint8_t has_height;
   uint32_t early, wrong; /* answers before all was decoded; heights that changed */
@@ -89,16 +89,16 @@ static volatile struct {
 /* Some thousand times a second, at any moment of the service. */
 static void on_tick(void) {
   static uint32_t hint;
-  microtin_query_result answer;
+  microtin_query_result result;
   int32_t height;
   if (!vehicle.is_set) return;
-  answer = pack_height_at(pack, vehicle.x, vehicle.y, &hint, &height);
-  if (answer == MICROTIN_QUERY_OK) {
+  result = pack_height_at(pack, vehicle.x, vehicle.y, &hint, &height);
+  if (result == MICROTIN_QUERY_OK) {
     if (vehicle.has_height && height != vehicle.height) ++vehicle.wrong;
     vehicle.height = height;
     vehicle.has_height = 1;
   }
-  vehicle.answer = answer;
+  vehicle.result = result;
   if (!vehicle.is_wanted) ++vehicle.early;
   vehicle.is_wanted = 0;
 }
@@ -120,7 +120,7 @@ static void wait_for_answer(void) {
 /* --- The main loop. --- */
 
 /* Turns of the loop until the segment is known as far as it can be. Counts those in which the card
- * did not answer: the vehicle flies on by the tiles that are there. 0: it is no pack. */
+ * did not respond: the vehicle flies on by the tiles that are there. 0: it is no pack. */
 static int serve(const microtin_segment* segment, struct card* card, uint32_t* failures) {
   for (;;) {
     switch (load_with(pack, segment, read_card, card, STEPS)) {
@@ -180,7 +180,7 @@ int firmware_main(void) {
     go_to(&segment);
     if (!serve(&segment, &card, &failures)) return 5;
     wait_for_answer();
-    print_place(i, vehicle.answer, vehicle.height);
+    print_place(i, vehicle.result, vehicle.height);
   }
   report(&card, failures);
   return vehicle.wrong == 0 ? 0 : 6;

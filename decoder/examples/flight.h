@@ -35,8 +35,8 @@ static inline microtin_segment flight_segment(int32_t i, const microtin_pack_inf
 }
 
 /* What is known of place `i`, ten places on a line. Heights have 16 fractional bits. */
-static inline void print_place(int32_t i, microtin_query_result answer, int32_t height) {
-  switch (answer) {
+static inline void print_place(int32_t i, microtin_query_result result, int32_t height) {
+  switch (result) {
     case MICROTIN_QUERY_OK:
       print_number(height);
       break;

@@ -21,7 +21,7 @@ struct Place {
   int32_t x, y;
 };
 
-// Heights ahead, asked for one after the other; an answer may take several cycles.
+// Heights ahead, asked for one after the other; a result may take several cycles.
 class LookAhead {
  public:
   // The highest terrain seen in the last round, in 16 fractional bits.
@@ -34,10 +34,10 @@ class LookAhead {
     for (uint32_t left = kStepsPerCycle; left >= kPiece; left -= kPiece) {
       const int32_t x = vehicle.x + next_ * kSpeed;
       int32_t height = 0;
-      const microtin_query_result answer =
+      const microtin_query_result result =
           terrain_.height_at(x, vehicle.y, &hint_, &height, 0, kPiece);
-      if (answer == MICROTIN_QUERY_STEP_LIMIT) continue;  // goes on from the hint
-      if (answer == MICROTIN_QUERY_OK && (next_ == 0 || height > round_)) round_ = height;
+      if (result == MICROTIN_QUERY_STEP_LIMIT) continue;  // goes on from the hint
+      if (result == MICROTIN_QUERY_OK && (next_ == 0 || height > round_)) round_ = height;
       if (next_++ == kAhead) {
         highest_ = round_;
         next_ = 0;
