@@ -188,7 +188,7 @@ class Driver(unittest.TestCase):
                 return file.read()
 
         for suffix in (".mtin", ".mtp"):
-            base = {"MAX_ERROR": "2"} if suffix == ".mtin" else {"MAX_ERROR": "2", "TILE_VERTICES": "30"}
+            base = {"MAX_ERROR": "2"} if suffix == ".mtin" else {"MAX_ERROR": "2", "TILE_VERTICES": "16"}
             without = encoded(suffix, base)
             for name, values in rows.items():
                 if name in (OF_PACKS if suffix == ".mtin" else OF_STREAMS):
