@@ -130,7 +130,7 @@ void add_obstacles(CLI::App& command, encoder::Options& options);
 // For encoding, and alike for every comparison with the source.
 void add_preparation(CLI::App& command, Preparation& preparation, encoder::Options& options);
 
-// Defines a command that prints what a stream or a pack is like.
+// Defines a command that prints what a stream or a pack is like, and returns it.
 CLI::App& add_look(CLI::App& app, Action& action, const std::string& name,
                    const std::string& description, void (*run)(const std::string&, bool));
 

@@ -125,13 +125,13 @@ std::string help_page(const CLI::App& app) {
   add_groups(page, text.commands);
   std::rotate(text.options.begin(), text.options.begin() + 1, text.options.end());  // --help
   add_groups(page, text.options);
-  const std::string of_program = is_program ? text.footer : app.get_parent()->get_footer();
-  if (text.footer != of_program) {
+  const std::string program_footer = is_program ? text.footer : app.get_parent()->get_footer();
+  if (text.footer != program_footer) {
     page += '\n';
     add_wrapped(page, 0, 0, text.footer);
   }
   page += '\n';
-  add_wrapped(page, 0, 0, of_program);
+  add_wrapped(page, 0, 0, program_footer);
   return page;
 }
 

@@ -267,8 +267,9 @@ void add_verify(CLI::App& app, Action& action) {
   add_obstacles(command, request->options);
   add_json(command, request->json);
   command.footer(
-      "The exit code is 1, after the report, if the file does not keep its bound or what an option "
-      "asks for.");
+      "The exit code is 1, after the report, if the file does not keep its bound, or what an "
+      "option "
+      "requires.");
   command.callback([request, &action] { action = [request] { run_verify(*request); }; });
 }
 

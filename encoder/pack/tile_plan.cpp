@@ -75,7 +75,6 @@ class TileCounts {
     return likely * kSpread <= allowed ||
            !may_fit(static_cast<uint32_t>(likely / kSpread), allowed);
   }
-  uint32_t count_alone(const TiledRaster& tiled, uint32_t tile, SimplifyOptions options) const;
   void search_longer(const TiledRaster& tiled, const std::vector<uint32_t>& tiles, uint32_t allowed,
                      std::vector<uint32_t>& counts) const;
 
@@ -87,6 +86,12 @@ class TileCounts {
 
 std::size_t largest_of(const std::vector<uint32_t>& counts) {
   return static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+}
+
+// Counts the vertices of one tile, on all processors.
+uint32_t count_alone(const TiledRaster& tiled, uint32_t tile, SimplifyOptions options) {
+  options.threads = processors();
+  return count_vertices(tiled, tile, options);
 }
 
 uint32_t TileCounts::most(const TiledRaster& tiled, uint32_t allowed, const Progress& progress) {
@@ -110,13 +115,6 @@ uint32_t TileCounts::most(const TiledRaster& tiled, uint32_t allowed, const Prog
   });
   search_longer(tiled, tiles, allowed, counts);
   return counts[largest_of(counts)];
-}
-
-// On all processors.
-uint32_t TileCounts::count_alone(const TiledRaster& tiled, uint32_t tile,
-                                 SimplifyOptions options) const {
-  options.threads = processors();
-  return count_vertices(tiled, tile, options);
 }
 
 // Searches longer in the tiles that are too large, if all may fit then: first in the largest. If
