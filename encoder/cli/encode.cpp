@@ -253,7 +253,8 @@ const RasterReader& raster_of(const Job& job, const PackSource& source) {
 // Each of these writes what is asked for and returns what to say of it.
 std::string encode_tiles(const Job& job, OutputFile& out) {
   const OpenSource opened = open_source(job);
-  const RasterReader& raster = raster_of(job, pack_source_of(opened));
+  const PackSource source = pack_source_of(opened);
+  const RasterReader& raster = raster_of(job, source);
   const ShardReport shard = with_file_context(job.input, [&] {
     ProgressBar bar;
     return encode_shard(raster, job, *job.tiles, out, bar.progress());
@@ -371,8 +372,9 @@ void run_plan(const EncodeRequest& request, uint32_t shards) {
   Job job = encoding_of(request);
   refuse_overwriting(inputs_of(request), "-");
   take_breaklines(request.options, feature_files_of(job.preparation), job);
-  const OpenSource source = open_source(job);
-  const RasterReader& raster = raster_of(job, pack_source_of(source));
+  const OpenSource opened = open_source(job);
+  const PackSource source = pack_source_of(opened);
+  const RasterReader& raster = raster_of(job, source);
   const std::vector<ShardPlan> plans = with_file_context(job.input, [&] {
     ProgressBar bar;
     return plan_shards(raster, job, shards, bar.progress());
