@@ -7,17 +7,17 @@ namespace {
 
 // Bytes of the buffer in front of the entries that are kept.
 uint32_t room_of(const microtin_pack& p) {
-  return kPackBuffer - p.kept * kPackEntryBytes;
+  return kHasSectors ? kPackBuffer - p.kept * kPackEntryBytes : kPackBuffer;
 }
 
 // From where the last bytes ended, unless `next` is set too.
 MICROTIN_ONE_COPY void want(microtin_pack& p, PackStage stage, uint32_t size) {
   const uint32_t room = room_of(p);
   p.stage = stage;
-  p.buffered = 0;
+  p.read.buffered = 0;
   p.fed = 0;
   p.is_counted = false;
-  p.wanted = static_cast<uint8_t>(size < room ? size : room);
+  p.read.wanted = static_cast<uint8_t>(size < room ? size : room);
 }
 
 // Gives up what is in hand; begins again with the header if that is not known.
@@ -60,7 +60,7 @@ MICROTIN_IN_PLACE inline microtin_status handle_fixed(microtin_pack& p) {
 
 // What is in the buffer counts for the check.
 MICROTIN_OUT_OF_LINE microtin_status go_on_to_notes(microtin_pack& p) {
-  p.sum = crc32(p.sum, p.buffer, p.buffered);
+  p.sum = crc32(p.sum, p.buffer, p.read.buffered);
   want_notes(p);
   return MICROTIN_STATUS_NEED_INPUT;
 }
@@ -71,7 +71,7 @@ microtin_status handle_placement(microtin_pack& p) {
 }
 
 microtin_status handle_notes(microtin_pack& p) {
-  p.left -= p.buffered;
+  p.left -= p.read.buffered;
   return go_on_to_notes(p);
 }
 
@@ -138,17 +138,25 @@ MICROTIN_ONE_COPY bool choose_slot(microtin_pack& p) {
   return p.slot != nullptr;
 }
 
-microtin_status refuse_tile(microtin_pack& p, microtin_status why) {
+namespace {
+
+void remember_bad(microtin_pack& p, uint32_t tile, microtin_status why) {
   BadTile* const bad = place_to_fill(p.bad, MICROTIN_PACK_MAX_BAD_TILES, p);
   if (bad != nullptr) {
     set_why(*bad, MICROTIN_STATUS_OK);
-    bad->tile = p.tile;
+    bad->tile = tile;
     bad->wanted = p.clock;
     set_why(*bad, why);
   } else {
-    p.passed = p.tile;
+    p.passed = tile;
     p.has_passed = true;
   }
+}
+
+}  // namespace
+
+microtin_status refuse_tile(microtin_pack& p, microtin_status why) {
+  remember_bad(p, p.tile, why);
   return fail_pack(p, MICROTIN_STATUS_OK);
 }
 
@@ -162,6 +170,16 @@ microtin_status finish_tile(microtin_pack& p, bool has_terrain) {
   return fail_pack(p, MICROTIN_STATUS_OK);
 }
 
+MICROTIN_ONE_COPY microtin_status read_entry(microtin_pack& p, uint32_t tile, const uint8_t* bytes,
+                                             PackEntry* entry) {
+  if (pack_entry_check(p.header.identity, tile, bytes) !=
+      read_u32(bytes + kPackEntryBytes - kCheckBytes)) {
+    p.kept = 0;  // it may be read better
+    return MICROTIN_STATUS_CHECKSUM;
+  }
+  return read_pack_entry(bytes, p.header, entry) ? MICROTIN_STATUS_OK : MICROTIN_STATUS_MALFORMED;
+}
+
 MICROTIN_ONE_COPY microtin_status lack_slot(microtin_pack& p) {
   p.is_sound = true;
   return fail_pack(p, MICROTIN_STATUS_OK);
@@ -169,21 +187,28 @@ MICROTIN_ONE_COPY microtin_status lack_slot(microtin_pack& p) {
 
 namespace {
 
+// The entry of a tile that was read with another one; null: none was.
+const uint8_t* kept_entry(const microtin_pack& p, uint32_t tile) {
+  const uint32_t place = tile - p.kept_from;
+  return kHasSectors && place < p.kept ? p.buffer + room_of(p) + place * kPackEntryBytes : nullptr;
+}
+
 // Wants the entry of the tile in hand, or takes it from those that are kept. From a card the next
 // ones come with it: another read, after the stream, would want their sector once more.
 MICROTIN_IN_PLACE inline void want_entry(microtin_pack& p, uint32_t tile) {
   p.tile = tile;
+  p.tile_priority = p.only_checks ? kNoRequest : p.priority;
   p.is_sound = false;
-  const uint32_t place = tile - p.kept_from;
-  if (place < p.kept) {
-    __builtin_memcpy(p.buffer, p.buffer + room_of(p) + place * kPackEntryBytes, kPackEntryBytes);
+  const uint8_t* const kept = kept_entry(p, tile);
+  if (kept != nullptr) {
+    __builtin_memcpy(p.buffer, kept, kPackEntryBytes);
     want(p, PackStage::kEntry, kPackEntryBytes);
-    p.buffered = p.wanted;
+    p.read.buffered = p.read.wanted;
     return;
   }
   const TileGrid& grid = p.header.grid;
   const uint32_t left = tile_columns(grid) * tile_rows(grid) - tile;
-  const uint32_t most = p.sector == 0 ? 1 : kEntriesOfRead;
+  const uint32_t most = kHasSectors && p.sector != 0 ? kEntriesOfRead : 1;
   p.kept = 0;
   p.next = pack_entry_start(p.header, tile);
   want(p, PackStage::kEntry, kPackEntryBytes * (left < most ? left : most));
@@ -191,7 +216,7 @@ MICROTIN_IN_PLACE inline void want_entry(microtin_pack& p, uint32_t tile) {
 
 // Moves the entries behind the first one to the buffer's end.
 MICROTIN_IN_PLACE inline void keep_entries(microtin_pack& p) {
-  p.kept = static_cast<uint8_t>(p.buffered / kPackEntryBytes - 1);
+  p.kept = static_cast<uint8_t>(p.read.buffered / kPackEntryBytes - 1);
   p.kept_from = p.tile + 1;
   __builtin_memmove(p.buffer + room_of(p), p.buffer + kPackEntryBytes,
                     p.kept * static_cast<size_t>(kPackEntryBytes));
@@ -201,16 +226,10 @@ microtin_mesh* mesh_to_fill(const microtin_pack& p, const PackSlot& slot) {
   return p.work != nullptr ? p.work : static_cast<microtin_mesh*>(slot.space);
 }
 
-// Takes the entry that is in the buffer. CHECKSUM or MALFORMED: its tile is bad.
+// Takes the entry that is in the buffer, as read_entry.
 MICROTIN_IN_PLACE inline microtin_status take_entry(microtin_pack& p) {
-  if (p.buffered > kPackEntryBytes) keep_entries(p);
-  if (pack_entry_check(p.header.identity, p.tile, p.buffer) !=
-      read_u32(p.buffer + kPackEntryBytes - kCheckBytes)) {
-    p.kept = 0;  // it may be read better
-    return MICROTIN_STATUS_CHECKSUM;
-  }
-  return read_pack_entry(p.buffer, p.header, &p.entry) ? MICROTIN_STATUS_OK
-                                                       : MICROTIN_STATUS_MALFORMED;
+  if (kHasSectors && p.read.buffered > kPackEntryBytes) keep_entries(p);
+  return read_entry(p, p.tile, p.buffer, &p.entry);
 }
 
 // Where there is no slot, the stream is compared with its hash: only a good tile wants one.
@@ -221,7 +240,7 @@ microtin_status handle_entry(microtin_pack& p) {
   // What is to be made compact needs its slot not before then.
   const bool is_emptied = has_slot && (p.work == nullptr || p.entry.size == 0) && empty_slot(p);
   if (is_waiting(p)) {
-    p.wanted = p.buffered = kPackEntryBytes;  // the others are kept
+    p.read.wanted = p.read.buffered = kPackEntryBytes;  // the others are kept
     return MICROTIN_STATUS_STEP_LIMIT;
   }
   if (has_slot) {
@@ -240,8 +259,8 @@ microtin_status handle_entry(microtin_pack& p) {
 // What the first bytes of a stream say of the tile.
 microtin_status start_of_tile(const microtin_pack& p) {
   Contract contract;
-  const microtin_status status =
-      read_tile_header(p.buffer, p.buffered, p.header, tile_box(p.header.grid, p.tile), &contract);
+  const microtin_status status = read_tile_header(p.buffer, p.read.buffered, p.header,
+                                                  tile_box(p.header.grid, p.tile), &contract);
   if (status != MICROTIN_STATUS_OK) return status;
   return contract.vertices > mesh_to_fill(p, *p.slots)->capacity ? MICROTIN_STATUS_TOO_BIG
                                                                  : MICROTIN_STATUS_OK;
@@ -254,8 +273,8 @@ microtin_status handle_stream(microtin_pack& p) {
     if (p.left == p.entry.size) p.start = static_cast<uint8_t>(start_of_tile(p));
     if (p.start == MICROTIN_STATUS_UNSUPPORTED_VERSION) p.slot = nullptr;
     p.is_counted = true;
-    p.sum = stream_hash(p.sum, p.buffer, p.buffered);
-    p.left -= p.buffered;
+    p.sum = stream_hash(p.sum, p.buffer, p.read.buffered);
+    p.left -= p.read.buffered;
   }
   return p.slot != nullptr ? MICROTIN_STATUS_STEP_LIMIT
                            : take_decoder_status(p, MICROTIN_STATUS_OK);
@@ -264,7 +283,7 @@ microtin_status handle_stream(microtin_pack& p) {
 // Handles what is in the buffer, if it is complete. OK: a tile is ready, or refused, or lacks a
 // slot; STOPPED: the tile is decoded, and a pack with compact slots must make it compact.
 MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE microtin_status handle(microtin_pack& p) {
-  if (p.buffered < p.wanted) return MICROTIN_STATUS_NEED_INPUT;
+  if (p.read.buffered < p.read.wanted) return MICROTIN_STATUS_NEED_INPUT;
   switch (p.stage) {
     case PackStage::kFixed:
       return handle_fixed(p);
@@ -356,30 +375,46 @@ void take_up(microtin_pack& p, const microtin_segment& segment) {
   p.segment_hash = hash;
 }
 
+// Whether storage reads next for the entry that is looked at: in turn with the tile in hand, if
+// both want bytes.
+bool is_look_next(const microtin_pack& p) {
+  return p.look.read.wants() && !(p.look.was_last && p.read.wants());
+}
+
+uint64_t next_of(const microtin_pack& p) {
+  return is_look_next(p) ? p.look.next : p.next;
+}
+
 // Bytes that are wanted next and lie in one sector.
 uint32_t wanted_now(const microtin_pack& p) {
-  const uint32_t left = static_cast<uint32_t>(p.wanted - p.buffered);
-  if (p.sector == 0) return left;
-  const uint32_t room = p.sector - (static_cast<uint32_t>(p.next) & (p.sector - 1u));
+  const PackRead& read = is_look_next(p) ? p.look.read : p.read;
+  const uint32_t left = static_cast<uint32_t>(read.wanted - read.buffered);
+  if (!kHasSectors || p.sector == 0) return left;
+  const uint32_t room = p.sector - (static_cast<uint32_t>(next_of(p)) & (p.sector - 1u));
   return left < room ? left : room;
 }
 
-// Where the bytes of a read are stored.
+uint8_t* place_of(microtin_pack& p) {
+  return is_look_next(p) ? p.look.bytes + p.look.read.buffered : p.buffer + p.read.buffered;
+}
+
+// Where storage puts the bytes of a read.
 uint8_t* landing_of(microtin_pack& p) {
 #if MICROTIN_READ_ALIGNMENT > 1
   return p.landing + -reinterpret_cast<uintptr_t>(p.landing) % MICROTIN_READ_ALIGNMENT;
 #else
-  return p.buffer + p.buffered;
+  return place_of(p);
 #endif
 }
 
 // What follows from what storage reported. NEED_INPUT: go on; OK: a tile was refused.
 microtin_status take_storage_result(microtin_pack& p) {
-  const Storage reported = p.storage;
-  p.storage = Storage::kWell;
+  const Storage reported = p.read.storage;
+  p.read.storage = Storage::kWell;
   // Only the first of the entries that one read brings is needed.
-  if (reported != Storage::kWell && p.stage == PackStage::kEntry && p.buffered >= kPackEntryBytes) {
-    p.wanted = p.buffered;
+  if (reported != Storage::kWell && p.stage == PackStage::kEntry &&
+      p.read.buffered >= kPackEntryBytes) {
+    p.read.wanted = p.read.buffered;
     return MICROTIN_STATUS_NEED_INPUT;
   }
   if (reported == Storage::kFailed) return MICROTIN_STATUS_IO;
@@ -409,6 +444,16 @@ microtin_status take_decoder_status(microtin_pack& p, microtin_status status) {
   return MICROTIN_STATUS_STEP_LIMIT;
 }
 
+namespace {
+
+// Whether the tile in hand, which the segment does not want, is given up for it: one that is less
+// important, or that cannot be read.
+bool gives_way(const microtin_pack& p) {
+  return p.priority < p.tile_priority || p.read.storage == Storage::kFailed;
+}
+
+}  // namespace
+
 microtin_status go_on(microtin_pack& p, const microtin_segment& segment) {
   if (!is_legal(segment)) return MICROTIN_STATUS_ARGUMENT;
   if (kPins) p.is_waiting = false;
@@ -422,21 +467,21 @@ microtin_status go_on(microtin_pack& p, const microtin_segment& segment) {
   microtin_status status = MICROTIN_STATUS_OK;
   while (status == MICROTIN_STATUS_OK) {
     const Wishes wishes = wishes_of(p, segment);
-    if (p.stage != PackStage::kIdle && !wishes.in_hand) {
+    if (!wishes.is_any || p.stage == PackStage::kIdle) take_up(p, segment);
+    if (!wishes.is_any) {
+      const bool is_all = !p.has_passed || p.is_whole;
+      p.has_passed = false;
+      if (is_all) return wishes.has_bad ? MICROTIN_STATUS_BAD_TILES : MICROTIN_STATUS_OK;
+      continue;  // with those in front of the tile passed
+    }
+    if (p.stage != PackStage::kIdle && !wishes.in_hand && gives_way(p)) {
       give_up(p);
-      p.storage = Storage::kWell;  // it was not asked for this segment
+      p.read.storage = Storage::kWell;  // it was not asked for this segment
     }
     status = take_storage_result(p);
     if (status == MICROTIN_STATUS_OK) continue;
     if (status == MICROTIN_STATUS_IO) return status;
     if (p.stage == PackStage::kIdle) {
-      take_up(p, segment);
-      if (!wishes.is_any) {
-        const bool is_all = !p.has_passed || p.is_whole;
-        p.has_passed = false;
-        if (is_all) return wishes.has_bad ? MICROTIN_STATUS_BAD_TILES : MICROTIN_STATUS_OK;
-        continue;  // with those in front of the tile passed
-      }
       if (p.is_sound && wishes.first == p.tile && !choose_slot(p)) {
         return is_waiting(p) ? MICROTIN_STATUS_STEP_LIMIT : MICROTIN_STATUS_WORKSPACE_TOO_SMALL;
       }
@@ -448,24 +493,30 @@ microtin_status go_on(microtin_pack& p, const microtin_segment& segment) {
   return status;
 }
 
-microtin_status bring_entry(microtin_pack& p, uint32_t tile) {
-  if (p.stage != PackStage::kEntry || p.tile != tile) {
-    p.storage = Storage::kWell;  // it was not asked for this tile
-    want_entry(p, tile);
+microtin_status bring_entry(microtin_pack& p, uint32_t tile, PackEntry* entry) {
+  EntryLook& look = p.look;
+  const uint64_t start = pack_entry_start(p.header, tile);
+  const uint8_t* const kept = kept_entry(p, tile);
+  if (kept != nullptr) {
+    __builtin_memcpy(look.bytes, kept, kPackEntryBytes);
+    look.read = PackRead{0, kPackEntryBytes, Storage::kWell};
+  } else if (look.next != start + look.read.buffered) {
+    look.next = start;
+    look.read = PackRead{};
   }
-  const bool is_absent = p.storage == Storage::kEnds && p.buffered < kPackEntryBytes;
-  microtin_status status = MICROTIN_STATUS_TRUNCATED;
-  if (!is_absent) {
-    status = take_storage_result(p);
-    if (status != MICROTIN_STATUS_NEED_INPUT || p.buffered < p.wanted) return status;
-    status = take_entry(p);
-  }
+  const Storage reported = look.read.storage;
+  look.read.storage = Storage::kWell;
+  if (reported == Storage::kFailed) return MICROTIN_STATUS_IO;
+  look.read.wanted = kPackEntryBytes;
+  if (reported == Storage::kWell && look.read.wants()) return MICROTIN_STATUS_NEED_INPUT;
+  look.read = PackRead{};
+  const microtin_status status = reported == Storage::kEnds
+                                     ? MICROTIN_STATUS_TRUNCATED
+                                     : read_entry(p, tile, look.bytes, entry);
+  if (status == MICROTIN_STATUS_OK) return status;
   // A tile whose entry was read before is remembered.
-  if (status != MICROTIN_STATUS_OK && bad_tile(p, tile) == MICROTIN_PACK_MAX_BAD_TILES) {
-    refuse_tile(p, status);
-  }
-  p.storage = Storage::kWell;
-  return fail_pack(p, status == MICROTIN_STATUS_OK ? status : MICROTIN_STATUS_BAD_TILES);
+  if (bad_tile(p, tile) == MICROTIN_PACK_MAX_BAD_TILES) remember_bad(p, tile, status);
+  return MICROTIN_STATUS_BAD_TILES;
 }
 
 microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
@@ -522,7 +573,8 @@ microtin_status microtin_pack_init(void* workspace, size_t size, uint32_t slots,
 void microtin_pack_reset(microtin_pack* pack) {
   microtin_pack& p = *pack;
   p.has_header = false;
-  p.storage = Storage::kWell;
+  p.read.storage = Storage::kWell;
+  p.look = EntryLook{};
   p.tile = 0;
   p.is_sound = false;
   p.only_checks = false;
@@ -538,7 +590,7 @@ void microtin_pack_reset(microtin_pack* pack) {
 }
 
 microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector) {
-  if (pack == nullptr || sector > 32768 || (sector & (sector - 1)) != 0)
+  if (pack == nullptr || sector > kMostSector || (sector & (sector - 1)) != 0)
     return MICROTIN_STATUS_ARGUMENT;
   pack->sector = static_cast<uint16_t>(sector);
   return MICROTIN_STATUS_OK;
@@ -563,7 +615,7 @@ int microtin_pack_is_waiting(const microtin_pack* pack) {
 
 void microtin_pack_next_read(microtin_pack* pack, uint64_t* offset, uint8_t** buffer,
                              size_t* size) {
-  *offset = pack->next;
+  *offset = next_of(*pack);
   *buffer = landing_of(*pack);
   *size = static_cast<size_t>(wanted_now(*pack));
 }
@@ -571,15 +623,18 @@ void microtin_pack_next_read(microtin_pack* pack, uint64_t* offset, uint8_t** bu
 void microtin_pack_complete_read(microtin_pack* pack, int32_t taken) {
   const int32_t most = static_cast<int32_t>(wanted_now(*pack));
   if (most == 0 || taken == MICROTIN_READ_NOT_READY) return;
+  const bool is_look = is_look_next(*pack);
+  PackRead& read = is_look ? pack->look.read : pack->read;
   if (taken <= 0 || taken > most) {
-    pack->storage = taken == 0 ? Storage::kEnds : Storage::kFailed;
-    return;
-  }
+    read.storage = taken == 0 ? Storage::kEnds : Storage::kFailed;
+  } else {
 #if MICROTIN_READ_ALIGNMENT > 1
-  __builtin_memcpy(pack->buffer + pack->buffered, landing_of(*pack), static_cast<size_t>(taken));
+    __builtin_memcpy(place_of(*pack), landing_of(*pack), static_cast<size_t>(taken));
 #endif
-  pack->buffered = static_cast<uint8_t>(pack->buffered + taken);
-  pack->next += static_cast<uint32_t>(taken);
+    read.buffered = static_cast<uint8_t>(read.buffered + taken);
+    (is_look ? pack->look.next : pack->next) += static_cast<uint32_t>(taken);
+  }
+  pack->look.was_last = is_look;
 }
 
 microtin_status microtin_pack_bad_tile(const microtin_pack* pack, uint32_t i, uint32_t* tile,

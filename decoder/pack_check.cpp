@@ -10,6 +10,7 @@ namespace {
 microtin_status check_tile(microtin_pack& p, const microtin_segment& middle) {
   // What is being loaded is begun again when it is wanted again.
   if (p.stage > PackStage::kEntry && p.slot != nullptr) fail_pack(p, MICROTIN_STATUS_OK);
+  p.tile_priority = kNoRequest;
   p.only_checks = true;
   const microtin_status status = go_on(p, middle);
   p.only_checks = false;
@@ -39,14 +40,15 @@ MICROTIN_OUT_OF_LINE microtin_status look_at(microtin_pack& p, uint32_t tile,
 MICROTIN_OUT_OF_LINE microtin_status look_at(microtin_pack& p, uint32_t tile,
                                              microtin_pack_bounds* bounds) {
   microtin_pack_check& check = bounds->check;
-  const microtin_status status = bring_entry(p, tile);
+  PackEntry entry;
+  const microtin_status status = bring_entry(p, tile, &entry);
   if (status == MICROTIN_STATUS_BAD_TILES) return count_bad(tile, &check);
   if (status != MICROTIN_STATUS_OK) return status;
-  if (p.entry.size == 0) {
+  if (entry.size == 0) {
     ++check.without_terrain;
     return status;
   }
-  const int16_t lowest = entry_lowest(p.buffer), highest = entry_highest(p.buffer);
+  const int16_t lowest = entry_lowest(p.look.bytes), highest = entry_highest(p.look.bytes);
   const bool is_first = check.tiles == check.without_terrain + check.bad;
   if (is_first || lowest < bounds->lowest) bounds->lowest = lowest;
   if (is_first || highest > bounds->highest) bounds->highest = highest;

@@ -13,6 +13,12 @@ namespace microtin {
 constexpr uint32_t kPackBuffer = 128;   // holds every item of the header but the notes
 constexpr uint32_t kEntriesOfRead = 4;  // of the index, if reads are aligned
 static_assert(kEntriesOfRead * kPackEntryBytes <= kPackBuffer, "they are read at once");
+#ifdef MICROTIN_NO_SECTORS
+constexpr uint32_t kMostSector = 0;
+#else
+constexpr uint32_t kMostSector = 32768;
+#endif
+constexpr bool kHasSectors = kMostSector != 0;
 // A tile's stream begins with magic, version, a length, and a header without placement and notes.
 constexpr uint32_t kTileHeaderMostBytes =
     kIdentityBytes + 1 + kHeaderMostBytes - kPlacementMostBytes;
@@ -75,6 +81,22 @@ struct BadTile {
 // What storage reported of the bytes wanted.
 enum class Storage : uint8_t { kWell, kEnds, kFailed };
 
+// Bytes that are read one after another.
+struct PackRead {
+  uint8_t wanted, buffered;  // counts of those wanted next, and of those that came
+  Storage storage;
+
+  bool wants() const { return storage == Storage::kWell && buffered < wanted; }
+};
+
+// An entry of the index that is looked at, beside the tile in hand.
+struct EntryLook {
+  uint64_t next;  // where in the file its next byte is
+  PackRead read;
+  bool was_last;  // the last read was for it
+  uint8_t bytes[kPackEntryBytes];
+};
+
 }  // namespace microtin
 
 // What is small and used most comes first, where short instructions reach it.
@@ -87,12 +109,11 @@ struct microtin_pack {
   bool has_passed;
   bool is_whole;  // all of the segment in hand up to `passed` has been tried
   bool is_sound;  // the stream of `tile` is the right one, but there was no slot for it
-  microtin::Storage storage;
   bool is_counted;
   bool only_checks;  // no tile gets a slot
   uint8_t start;     // a status: what the first bytes of a stream say of the tile, or of the header
-  // Counts of the next bytes wanted, and of those that came.
-  uint8_t wanted, buffered, fed;
+  microtin::PackRead read;
+  uint8_t fed;      // bytes of the buffer that were decoded
   uint8_t kept;     // entries of the index at the buffer's end
   uint16_t sector;  // no read crosses a multiple of it; a power of two, or 0: they may
 
@@ -107,6 +128,7 @@ struct microtin_pack {
   uint32_t segment_hash;  // of the segment in hand
   uint8_t priority;       // of the request in hand: slots that serve one as important are kept
   bool is_waiting;        // every slot that might give way is pinned
+  uint8_t tile_priority;  // of the request for `tile`; kNoRequest: it is only checked
   microtin::PackEntry entry;
   microtin_decoder* decoder;
   microtin_compactor* compactor;  // of the tile decoded; null: not begun
@@ -120,6 +142,7 @@ struct microtin_pack {
   microtin::PackHeader header;
   microtin_axis axis[3];
   microtin::BadTile bad[MICROTIN_PACK_MAX_BAD_TILES];
+  microtin::EntryLook look;
   uint8_t buffer[microtin::kPackBuffer];
 #if MICROTIN_READ_ALIGNMENT > 1
   uint8_t landing[microtin::kPackBuffer + MICROTIN_READ_ALIGNMENT - 1];  // where reads store bytes
@@ -160,7 +183,8 @@ MICROTIN_IN_PLACE inline bool is_waiting(const microtin_pack& p) {
 }
 
 // Goes on with a segment, up to where its next tile is to be decoded (STEP_LIMIT, unless it waits
-// for a slot) or made compact (STOPPED).
+// for a slot) or made compact (STOPPED). A tile that another segment began to load comes first, so
+// that those who load in turn all get their tiles.
 microtin_status go_on(microtin_pack& p, const microtin_segment& segment);
 
 // Whether a query used a slot since this was called last.
@@ -179,9 +203,12 @@ MICROTIN_IN_PLACE inline void note_use(PackSlot& slot) {
   }
 }
 
-// Brings a tile's entry to `entry` and to the buffer, and drops what else is in hand. OK, or
-// NEED_INPUT, IO, BAD_TILES.
-microtin_status bring_entry(microtin_pack& p, uint32_t tile);
+// Reads a tile's entry. CHECKSUM or MALFORMED: the tile is bad.
+microtin_status read_entry(microtin_pack& p, uint32_t tile, const uint8_t* bytes, PackEntry* entry);
+
+// Brings a tile's entry to `entry` and to p.look.bytes; what is in hand stays. OK, or NEED_INPUT,
+// IO, BAD_TILES.
+microtin_status bring_entry(microtin_pack& p, uint32_t tile, PackEntry* entry);
 
 // Begins a call: tiles that queries used were wanted after those of the call before.
 inline void begin_call(microtin_pack& p) {
@@ -239,7 +266,7 @@ microtin_status take_decoder_status(microtin_pack& p, microtin_status status);
 MICROTIN_IN_PLACE inline microtin_status decode(microtin_pack& p, uint32_t step_limit) {
   size_t used = 0;
   const microtin_status status = microtin_decoder_feed(
-      p.decoder, p.buffer + p.fed, static_cast<size_t>(p.buffered - p.fed), &used, step_limit);
+      p.decoder, p.buffer + p.fed, static_cast<size_t>(p.read.buffered - p.fed), &used, step_limit);
   p.fed = static_cast<uint8_t>(p.fed + used);
   return status == MICROTIN_STATUS_STEP_LIMIT ? status : take_decoder_status(p, status);
 }

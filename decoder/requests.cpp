@@ -308,7 +308,7 @@ microtin_status microtin_requests_next(microtin_requests* requests, microtin_seg
   grow_older(r);
   if (!r.pack->has_header) {
     *segment = microtin_segment{0, 0, 0, 0};
-    take_in_hand(r, kNone, kHere);
+    take_in_hand(r, kNone, kSoon);  // a tile that is begun behind the header gives way
     return MICROTIN_STATUS_NEED_INPUT;
   }
   find_use(r);

@@ -139,6 +139,25 @@ TEST_CASE_TEMPLATE("pack bounds: of damaged and absent entries nothing is known"
   CHECK(cut.check.bad == pack.tiles() - 4);
 }
 
+TEST_CASE_TEMPLATE("pack bounds: a damaged entry is read again, also one that was kept", Device,
+                   MeshSlots, CompactSlots) {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const PackFile pack(card.bytes);
+  const TileBox second = tile_box(pack.grid(), 1);
+  const microtin_segment there = at(second.x + 1, second.y + 1);
+  uint8_t& byte = card.bytes[static_cast<size_t>(pack_entry_start(pack.header(), 1)) + 12];
+  for (const uint32_t sector : {0u, 512u}) {
+    const Device device(2);
+    microtin_pack_align_reads(device.pack, sector);
+    byte ^= 1;
+    REQUIRE(device.load(card, at(1, 1)) ==
+            MICROTIN_STATUS_OK);  // keeps entries, if reads are aligned
+    CHECK(bounds_with(device, card, there, false).status == MICROTIN_STATUS_BAD_TILES);
+    byte ^= 1;
+    CHECK(bounds_with(device, card, there, false).status == MICROTIN_STATUS_OK);
+  }
+}
+
 TEST_CASE_TEMPLATE("pack bounds: calls read once, and loading and queries go on between", Device,
                    MeshSlots, CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53))};
@@ -174,6 +193,62 @@ TEST_CASE_TEMPLATE("pack bounds: calls read once, and loading and queries go on 
     CHECK(failures > 0);
     check_found(bounds, expected);
   }
+}
+
+TEST_CASE_TEMPLATE("pack bounds: each turn of a loop finds them, and no tile is read twice", Device,
+                   MeshSlots, CompactSlots) {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  card.most = 7;
+  const PackFile pack(card.bytes);
+  const microtin_segment all = whole(pack.grid()), there = at(30, 26);
+  uint32_t reads = 0;
+  {
+    const Device device(4);
+    REQUIRE(device.load(card, there) == MICROTIN_STATUS_OK);
+    reads = card.reads;
+  }
+  const Device device(4);
+  card.reads = 0;
+  uint32_t looks = 0;
+  microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+  for (uint32_t turn = 0; turn < 5000 && status != MICROTIN_STATUS_OK; ++turn) {
+    status = device.load(card, there, 5);
+    const uint32_t before = card.reads;
+    CHECK(bounds_with(device, card, all, true).check.tiles == pack.tiles());
+    looks += card.reads - before;
+  }
+  CHECK(status == MICROTIN_STATUS_OK);
+  CHECK(card.reads - looks <= reads);
+}
+
+// Loads and looks without end, one call of each in a turn of a loop.
+template <class Device>
+void take_turns(bool reads_before_each) {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const PackFile pack(card.bytes);
+  const microtin_segment all = whole(pack.grid());
+  const Device device(1);
+  microtin_pack_bounds bounds{};
+  uint32_t loaded = 0, looks = 0;
+  const auto read = [&] { microtin_pack_read_once(device.pack, Card::read, &card); };
+  for (uint32_t turn = 0; turn < 5000; ++turn) {
+    if (reads_before_each) read();
+    const microtin_segment there = loaded % 2 == 0 ? at(1, 1) : at(60, 52);
+    if (device.load_without_reading(there, 50) == MICROTIN_STATUS_OK) ++loaded;
+    if (reads_before_each) read();
+    while (microtin_pack_bounds_in_box(device.pack, &all, &bounds) == MICROTIN_STATUS_OK) {
+      ++looks;
+      bounds = microtin_pack_bounds{};
+    }
+    if (!reads_before_each) read();
+  }
+  CHECK(loaded > 20);
+  CHECK(looks > 20);
+}
+
+TEST_CASE_TEMPLATE("pack bounds: neither they nor loading starve, wherever a loop reads", Device,
+                   MeshSlots, CompactSlots) {
+  for (const bool reads_before_each : {false, true}) take_turns<Device>(reads_before_each);
 }
 
 TEST_CASE("pack bounds: tiles may lie on one side of 0 alone") {

@@ -117,6 +117,60 @@ TEST_CASE_TEMPLATE("pack: steps and reads of a call are bounded, and queries wor
   CHECK(calls > 50);
 }
 
+TEST_CASE_TEMPLATE("pack: segments that are loaded in turn, in pieces, all get their tiles", Device,
+                   MeshSlots, CompactSlots) {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const PackFile pack(card.bytes);
+  const TileGrid& grid = pack.grid();
+  const microtin_segment segments[] = {
+      at(1, 1),
+      at(grid.x_max, grid.y_max),
+      {0, grid.y_max * int64_t{256}, grid.x_max * int64_t{256}, grid.y_max * int64_t{256}}};
+  for (const size_t most : {size_t{7}, size_t{1000}}) {
+    card.most = most;
+    const Device device(tile_columns(grid) + 1);
+    bool is_there[3] = {};
+    for (uint32_t call = 0; call < 20000; ++call) {
+      const microtin_status status = device.load(card, segments[call % 3], 3);
+      is_there[call % 3] = status == MICROTIN_STATUS_OK;
+      if (is_there[0] && is_there[1] && is_there[2]) break;
+      REQUIRE((status == MICROTIN_STATUS_OK || status == MICROTIN_STATUS_NEED_INPUT ||
+               status == MICROTIN_STATUS_STEP_LIMIT));
+    }
+    CHECK((is_there[0] && is_there[1] && is_there[2]));
+  }
+}
+
+// A card of which a tile's stream cannot be read any more.
+struct WornCard {
+  Card card;
+  PackEntry worn;
+
+  static int32_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
+    WornCard& self = *static_cast<WornCard*>(context);
+    const bool is_before = offset + size <= self.worn.offset;
+    if (!is_before && offset < self.worn.offset + self.worn.size) return -1;
+    return Card::read(&self.card, offset, buffer, size);
+  }
+};
+
+TEST_CASE_TEMPLATE("pack: a tile in hand that cannot be read stops no other segment", Device,
+                   MeshSlots, CompactSlots) {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const PackFile pack(card.bytes);
+  const microtin_segment here = at(1, 1), there = at(pack.grid().x_max, pack.grid().y_max);
+  WornCard worn{{card.bytes}, pack.entries().back()};
+  uint32_t calls = 0;
+  for (;; ++calls) {
+    const Device device(2);
+    microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+    for (uint32_t call = 0; call < calls; ++call) status = device.load(card, there, 5);
+    if (status == MICROTIN_STATUS_OK) break;
+    CHECK(device.load_with(here, WornCard::read, &worn, 0) == MICROTIN_STATUS_OK);
+  }
+  CHECK(calls > 10);
+}
+
 TEST_CASE_TEMPLATE("pack: every read fails in turn, and the next call goes on", Device, MeshSlots,
                    CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53))};

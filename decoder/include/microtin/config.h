@@ -20,6 +20,8 @@
  *                         compiler that compiles the library needs them
  *   MICROTIN_NO_NAMES     leaves out the strings of microtin_status_name and of
  *                         microtin_query_result_name
+ *   MICROTIN_NO_SECTORS   leaves out reads that end with a sector, for packs in files or memory:
+ *                         microtin_pack_align_reads accepts 0 alone
  *
  * The library decodes every stream unless one of the following switches is defined. It returns
  * MICROTIN_STATUS_UNSUPPORTED_VERSION for a stream that needs what is left out. Only the compiler

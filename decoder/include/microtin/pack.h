@@ -38,9 +38,9 @@
    (slots) * (24ul + MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES_FOR(capacity, bits))))
 /* Bytes of a pack itself, with its buffer for reads. */
 #if MICROTIN_READ_ALIGNMENT > 1
-#define MICROTIN_PACK_OWN_BYTES (608ul + MICROTIN_PACK_ROUND(MICROTIN_READ_ALIGNMENT))
+#define MICROTIN_PACK_OWN_BYTES (640ul + MICROTIN_PACK_ROUND(MICROTIN_READ_ALIGNMENT))
 #else
-#define MICROTIN_PACK_OWN_BYTES 480ul
+#define MICROTIN_PACK_OWN_BYTES 512ul
 #endif
 /* `bytes`, rounded up to a multiple of 8. */
 #define MICROTIN_PACK_ROUND(bytes) (((bytes) + 7ul) / 8 * 8)
@@ -96,7 +96,9 @@ microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector);
 /* Loads the tiles that a segment touches, first those where it begins, without any reading of its
  * own: after NEED_INPUT pass what it needs by microtin_pack_next_read and
  * microtin_pack_complete_read. A call decodes at most `step_limit` work units (0: no limit; see
- * microtin_decoder_feed). The next call may pass the same segment or another.
+ * microtin_decoder_feed). The next call may pass the same segment or another: a tile that is begun
+ * is finished first, so that segments may take turns. It is given up if it cannot be read, or if a
+ * more important request needs another tile (requests.h).
  *
  * - OK: all tiles are loaded; queries on the segment have results
  * - NEED_INPUT: bytes are needed
@@ -256,7 +258,8 @@ typedef struct microtin_pack_bounds {
 /* Finds between which heights the tiles lie that a segment touches, for packs of both kinds. Reads
  * 20 bytes of the index for each tile, and neither decodes nor changes a slot: much faster than
  * loading, if the answer suffices. Streams are not looked at; a tile with a damaged stream counts
- * like a whole one. How to call, cost and results are those of microtin_pack_check_segment. */
+ * like a whole one. How to call, cost and results are those of microtin_pack_check_segment, but
+ * what is being loaded stays. */
 microtin_status microtin_pack_bounds_on_segment(microtin_pack* pack,
                                                 const microtin_segment* segment,
                                                 microtin_pack_bounds* bounds);

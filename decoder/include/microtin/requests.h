@@ -13,8 +13,9 @@
  *   serves no request.
  *
  * Interrupts: microtin_requests_add may interrupt microtin_requests_load at any moment, as queries
- * may (pack.h), but not itself. The pack is loaded by microtin_requests_load alone. Nothing here
- * allocates or waits. */
+ * may (pack.h), but not itself. Other loading calls and path searches may take turns with it: each
+ * of them first finishes the tile that another one began, unless a more important request needs
+ * another tile. Nothing here allocates or waits. */
 #ifndef MICROTIN_REQUESTS_H
 #define MICROTIN_REQUESTS_H
 

@@ -68,8 +68,10 @@ double pack_bytes(uint32_t slots, uint32_t capacity) {
 }
 
 // Like microtin_pack_load without a step limit, but returns STEP_LIMIT as soon as the tile in
-// hand has more than `verified` vertices and all of them have passed their checks.
+// hand has more than `verified` vertices and all of them have passed their checks. A tile of
+// another segment gives way: its bytes are kept, and whoever waits sees the phases of this one.
 uint32_t prepare_section(microtin_pack* pack, const microtin_segment* segment, uint32_t verified) {
+  pack->tile_priority = kNoRequest;
   microtin_status status = MICROTIN_STATUS_OK;
   while (status == MICROTIN_STATUS_OK) {
     status = go_on(*pack, *segment);
@@ -109,13 +111,9 @@ double entry_start(const microtin_pack* pack, uint32_t tile) {
 
 // Returns the bytes of a tile's stream, which begins at *offset, by its entry of the index. 0 if
 // the tile has no terrain, or -1 if the entry breaks a rule or its check.
-int32_t read_entry(const microtin_pack* pack, uint32_t tile, const uint8_t* bytes, double* offset) {
+int32_t read_entry(microtin_pack* pack, uint32_t tile, const uint8_t* bytes, double* offset) {
   PackEntry entry{};
-  if (read_u32(bytes + kPackEntryBytes - kCheckBytes) !=
-          pack_entry_check(pack->header.identity, tile, bytes) ||
-      !read_pack_entry(bytes, pack->header, &entry)) {
-    return -1;
-  }
+  if (read_entry(*pack, tile, bytes, &entry) != MICROTIN_STATUS_OK) return -1;
   *offset = static_cast<double>(entry.offset);
   return static_cast<int32_t>(entry.size);
 }

@@ -5,6 +5,7 @@
 
 #define MICROTIN_INDEX_BITS 16
 #define MICROTIN_NO_NAMES
+#define MICROTIN_NO_SECTORS
 #define MICROTIN_ASSERT(condition) ((condition) ? (void)0 : broken_promise())
 
 #ifdef __cplusplus
