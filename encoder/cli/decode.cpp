@@ -161,7 +161,7 @@ std::string autopilot_report(const AutopilotFile& file, uint32_t spacing) {
             " posts, which have the height of the nearest place on it\n";
   }
   return text + "the grid adds: at most " + fixed(file.largest) + " m, rms " + fixed(file.rms) +
-         " m, at " + std::to_string(file.places) + " places of the lattice\n";
+         " m, at " + std::to_string(file.queried) + " places of the lattice\n";
 }
 
 void decode_for_autopilot(const DecodeRequest& request, Autopilot autopilot) {
@@ -188,9 +188,9 @@ void decode_for_autopilot(const DecodeRequest& request, Autopilot autopilot) {
   deliver(out, request.output, autopilot_report(file, spacing));
   if (file.missed != 0) {
     const double percent =
-        100.0 * static_cast<double>(file.missed) / static_cast<double>(file.asked);
+        100.0 * static_cast<double>(file.missed) / static_cast<double>(file.queried);
     std::fputs(warning("firmware that computes in single precision finds no height at " +
-                       std::to_string(file.missed) + " of " + std::to_string(file.asked) +
+                       std::to_string(file.missed) + " of " + std::to_string(file.queried) +
                        " places with terrain (" + fixed(percent) +
                        " %): its distances are too coarse at this latitude")
                    .c_str(),
@@ -323,7 +323,7 @@ void add_decode(CLI::App& app, Action& action) {
       "Write a file that can have more than 1 GB, or a mesh of more than 2^24 vertices");
   command.callback([request, &action] {
     request->like_preparation.band = 1;  // all bands have the same posts
-    request->like_preparation.asked.reset();
+    request->like_preparation.requested.reset();
     if (request->cell && request->cell->mantissa == 0) {
       throw CLI::ValidationError("--cell", "must be above 0");
     }

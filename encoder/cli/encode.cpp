@@ -185,7 +185,7 @@ std::string stream_report(const Source& source, const EncodedStream& encoded, co
        << "error: at most " << to_string(measured.max_error) << ", rms "
        << to_string(measured.rms_error) << ", mean " << to_string(measured.mean_error);
   if (encoded.bound && !encoded.bounds) {
-    text << (job.lattice.max_error ? " (asked for: at most " : " (found: at most ")
+    text << (job.lattice.max_error ? " (requested: at most " : " (found: at most ")
          << to_string(*encoded.bound) << ")";
   }
   text << '\n'
@@ -207,7 +207,7 @@ std::string pack_report(const PackReport& pack, bool is_bound = false) {
   text << ", " << pack.vertices << " vertices, at most " << pack.most_vertices << " in a tile, "
        << pack.bytes << " bytes\nerror: at most " << to_string(pack.measured.max_error) << ", rms "
        << to_string(pack.measured.rms_error) << ", mean " << to_string(pack.measured.mean_error);
-  if (pack.bound && !pack.bounds) text << " (asked for: at most " << to_string(*pack.bound) << ")";
+  if (pack.bound && !pack.bounds) text << " (requested: at most " << to_string(*pack.bound) << ")";
   text << '\n' << own_bounds(pack.bounds) << beyond(pack.measured, pack.everywhere, is_bound);
   return text.str();
 }
@@ -250,7 +250,7 @@ const RasterReader& raster_of(const Job& job, const PackSource& source) {
   return *raster;
 }
 
-// Each of these writes what is asked for and returns what to say of it.
+// Each of these writes what is requested and returns what to say of it.
 std::string encode_tiles(const Job& job, OutputFile& out) {
   const OpenSource opened = open_source(job);
   const PackSource source = pack_source_of(opened);

@@ -35,7 +35,7 @@ struct Answer {
   std::string text;  // a number or a word
 };
 
-Answer ask(PlaceQuery& query, const Place& place, const HeightRequest& request) {
+Answer result_at(PlaceQuery& query, const Place& place, const HeightRequest& request) {
   const bool on_lattice = request.lattice;
   const auto [kind, height] = request.device ? query.device_height_at(place.x, place.y, on_lattice)
                                              : query.height_at(place.x, place.y, on_lattice);
@@ -44,7 +44,7 @@ Answer ask(PlaceQuery& query, const Place& place, const HeightRequest& request) 
   return {kind, to_string(rounded_height(z, height, kDecimals))};
 }
 
-// Answers behind the lines that ask.
+// Results behind the lines of places.
 std::string answered(PlaceQuery& query, std::string_view lines, const HeightRequest& request) {
   std::string text;
   for (uint64_t number = 1; !lines.empty(); ++number) {
@@ -55,7 +55,7 @@ std::string answered(PlaceQuery& query, std::string_view lines, const HeightRequ
       throw Error("standard input, line " + std::to_string(number) + ": is not a position, X Y" +
                   remedy_for_commas(line));
     }
-    text += std::string(line) + ' ' + ask(query, *place, request).text + '\n';
+    text += std::string(line) + ' ' + result_at(query, *place, request).text + '\n';
   }
   return text;
 }
@@ -127,7 +127,7 @@ int run_height(const HeightRequest& request) {
       print(answered(query, without_mark(read_file("-")), request));
       return 0;
     }
-    const Answer answer = ask(query, *request.place, request);
+    const Answer answer = result_at(query, *request.place, request);
     print(answer.text + '\n');
     return code_for(answer.kind);
   });

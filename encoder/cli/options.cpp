@@ -23,7 +23,7 @@ constexpr const char* kTerrainFiles =
 #endif
     ;
 
-// Other names of standard output are "-" for all that follows, unless a suffix asks for a format.
+// Other names of standard output are "-" for all that follows, unless a suffix stands for a format.
 std::string plain_output(const std::string& path) {
   if (path.empty()) {
     throw CLI::ValidationError("--output", "'' is not allowed; use the name of a file, or -");

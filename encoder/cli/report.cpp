@@ -111,12 +111,12 @@ void deliver(OutputFile& out, const std::string& path, const std::string& text) 
     if (std::fputs(text.c_str(), stderr) < 0) throw ReportLost("the report cannot be printed");
     return;
   }
-  const bool told = tell(text);  // before the file is there: a failure leaves none
+  const bool is_printed = try_print(text);  // before the file is there: a failure leaves none
   out.commit();
-  if (!told) throw ReportLost(path + ": is complete, but nobody reads the report");
+  if (!is_printed) throw ReportLost(path + ": is complete, but nobody reads the report");
 }
 
-bool tell(const std::string& text) {
+bool try_print(const std::string& text) {
   try {
     OutputFile terminal("-");
     terminal.write(text);
@@ -128,7 +128,7 @@ bool tell(const std::string& text) {
 }
 
 void print(const std::string& text) {
-  if (!tell(text)) throw ReportLost("nobody reads the report");
+  if (!try_print(text)) throw ReportLost("nobody reads the report");
 }
 
 std::string warning(const std::string& text) {

@@ -46,7 +46,7 @@ double bits_per_vertex(size_t bytes, uint32_t vertices);
 void deliver(OutputFile& out, const std::string& path, const std::string& text);
 
 // Writes to standard output. Returns false if nobody reads; throws Error if it fails otherwise.
-bool tell(const std::string& text);
+bool try_print(const std::string& text);
 
 // Prints the text of a command that does no more. Throws ReportLost if nobody reads.
 void print(const std::string& text);

@@ -181,12 +181,12 @@ void run_verify(const VerifyRequest& request) {
     report.emplace_back("breaklines", text_of_lines(*lines, document.metadata().placement));
   }
   add_warnings(report, original);
-  const bool told = tell(text_of(report, request.json));
+  const bool is_printed = try_print(text_of(report, request.json));
   expect_kept(judgement, input);
   if (request.never_below) expect_side(BoundSide::kNeverBelow, judgement, input);
   expect_stated(judgement, document.metadata(), input);
   if (lines) expect_lines(*lines, request);
-  if (!told) throw ReportLost(input + ": keeps its promises, but nobody reads the report");
+  if (!is_printed) throw ReportLost(input + ": keeps its promises, but nobody reads the report");
 }
 
 // The commands check and diff: what is damaged in a file, and how two packs differ.
@@ -226,18 +226,18 @@ void run_check(const std::string& input, bool as_json) {
     const auto text = [](const TileFault& fault) { return json(fault.text); };
     report.emplace_back("faults", json_list(found.faults, text));
   }
-  const bool told = tell(text_of(report, as_json));
+  const bool is_printed = try_print(text_of(report, as_json));
   if (!found.faults.empty()) {
     throw Error(input + ": " + of_tiles(found.faults.size(), found.tiles) +
                 " cannot be used, or are not as the file states");
   }
-  if (!told) throw ReportLost(input + ": is intact, but nobody reads the report");
+  if (!is_printed) throw ReportLost(input + ": is intact, but nobody reads the report");
 }
 
 // Throws Error, after the report, if a tile differs.
 void run_diff(const std::string& first, const std::string& second, bool as_json) {
   const Difference found = compare_packs(first, second);
-  const bool told = tell(
+  const bool is_printed = try_print(
       text_of({{"tiles", json(found.tiles)},
                {"header", json(found.is_header_same ? "same" : "different")},
                {"different", json_list(found.differ, [](uint32_t tile) { return json(tile); })}},
@@ -246,7 +246,7 @@ void run_diff(const std::string& first, const std::string& second, bool as_json)
     throw Error(second + ": " + of_tiles(found.differ.size(), found.tiles) +
                 " differ from those of " + first);
   }
-  if (!told) throw ReportLost(second + ": has the same tiles, but nobody reads the report");
+  if (!is_printed) throw ReportLost(second + ": has the same tiles, but nobody reads the report");
 }
 
 }  // namespace

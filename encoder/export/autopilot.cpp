@@ -386,13 +386,13 @@ void measure(const SampledSurface& surface, const AutopilotLayout& layout, Autop
       if (longitude < static_cast<double>(origin.longitude)) continue;
       const ExactAnswer answer = surface.height_at(place_on_lattice(column, row));
       if (answer.kind != MICROTIN_QUERY_OK) continue;
-      ++file.asked;
+      ++file.queried;
       const GeoPlace place{std::llround(latitude), std::llround(longitude)};
       file.missed += layout.is_found_in_single_precision(place) ? 0u : 1u;
       const auto found = grid_height(layout, file.bytes, latitude, longitude);
       if (!found) continue;
       const double error = *found - real_height(z, answer.height);
-      ++file.places;
+      ++file.queried;
       squares += error * error;
       file.largest = std::max(file.largest, std::abs(error));
     }

@@ -161,7 +161,7 @@ struct AutopilotFile {
   double largest = 0, rms = 0;
 
   // Places of the lattice with terrain, and those of them that firmware in single precision misses.
-  uint64_t asked = 0, missed = 0;
+  uint64_t queried = 0, missed = 0;
 };
 
 // The surface as posts every `spacing` (10 .. 1000) metres. Its places must be in degrees, its

@@ -178,7 +178,7 @@ bool meets(const SampledSurface& surface, const PostGrid& posts) {
          overlaps(posts.y, posts.rows, p.y, surface.y_min, surface.y_max);
 }
 
-// Asks the surface at each cell's centre, from north to south.
+// Samples the surface at each cell's centre, from north to south.
 
 namespace {
 

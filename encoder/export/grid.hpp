@@ -73,7 +73,7 @@ double most_grid_bytes(const SampledSurface& surface, const PostGrid& posts);
 // plane, rounded to three decimals more than the step of heights has, but at most nine. Corner and
 // cell size have all their decimals, or 12, which import_asc reads as the fraction they stand for.
 // Posts without a height get a NODATA_value below all others. Written post by post: memory is the
-// surface's alone. Throws Error if the surface cannot be asked.
+// surface's alone. Throws Error if the surface cannot be sampled.
 void export_grid(const SampledSurface& surface, const PostGrid& posts, OutputFile& out);
 
 }  // namespace microtin::exporting

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Asks streams and packs for heights; keeps some of a pack's tiles decoded.
+// Queries streams and packs for heights; keeps some of a pack's tiles decoded.
 #include "encoder/export/queries.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ bool holds(const SampledSurface& surface, const RealPlace& p) {
 
 // A sampler answers in the surface's box alone.
 template <class Sampler>
-void ask(SampledSurface& surface, std::shared_ptr<Sampler> sampler) {
+void sample_with(SampledSurface& surface, std::shared_ptr<Sampler> sampler) {
   surface.height_at = [box = surface, sampler](const RealPlace& place) {
     return holds(box, place) ? sampler->height_at(place) : kNothing;
   };
@@ -104,15 +104,15 @@ class PackSampler {
     std::optional<DecodedTerrain> terrain;  // nothing if there is none
     MeshSampler sampler;
     bool is_bad = false;
-    std::string fault;   // of a bad one
-    uint64_t asked = 0;  // when it was asked last
+    std::string fault;  // of a bad one
+    uint64_t used = 0;  // when it was needed last
 
     uint32_t vertices() const { return terrain ? microtin_mesh_vertex_count(terrain->mesh()) : 0; }
   };
 
   Tile& tile_of(uint32_t number) {
     Tile& tile = known_tile(number);
-    tile.asked = ++clock_;
+    tile.used = ++clock_;
     return tile;
   }
 
@@ -154,7 +154,7 @@ class PackSampler {
   void forget_one() {
     const auto first = std::min_element(
         tiles_.begin(), tiles_.end(),
-        [](const auto& a, const auto& b) { return a.second.asked < b.second.asked; });
+        [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
     vertices_ -= first->second.vertices();
     tiles_.erase(first);
   }
@@ -188,7 +188,7 @@ SampledSurface sampled(const microtin_mesh* mesh) {
     surface.highest = v == 0 ? z : std::max<int32_t>(surface.highest, z);
   }
   surface.mesh_of = [mesh](uint32_t) { return TileMesh{mesh, MICROTIN_QUERY_OUTSIDE}; };
-  ask(surface, std::make_shared<MeshSampler>(mesh));
+  sample_with(surface, std::make_shared<MeshSampler>(mesh));
   return surface;
 }
 
@@ -202,7 +202,7 @@ SampledSurface sampled(const PackFile& pack, BadTiles bad_tiles, uint64_t kept_v
   surface.tiles = pack.grid();
   const auto sampler = std::make_shared<PackSampler>(pack, bad_tiles, kept_vertices);
   surface.mesh_of = [sampler](uint32_t tile) { return sampler->mesh_of(tile); };
-  ask(surface, sampler);
+  sample_with(surface, sampler);
   return surface;
 }
 

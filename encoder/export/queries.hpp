@@ -21,13 +21,13 @@ struct Position {
   double x, y;
 };
 
-// The mesh of a tile, until the next tile is asked for; null if there is none.
+// The mesh of a tile, until the next tile is requested; null if there is none.
 struct TileMesh {
   const microtin_mesh* mesh;
   microtin_query_result absent;  // why the tile has no height beyond the mesh
 };
 
-// A surface that can be asked. Lattice numbers; they count from the pack's first post.
+// A surface that can be sampled. Lattice numbers; they count from the pack's first post.
 struct SampledSurface {
   Placement placement;
   TileGrid tiles{kLatticeMax, kLatticeMax, kLatticeMax, kLatticeMax};  // of a stream one
@@ -53,7 +53,7 @@ SampledSurface sampled(const microtin_mesh* mesh);
 // are answered IN_BAD_TILE.
 enum class BadTiles : uint8_t { kThrow, kAnswer };
 
-// Decodes tiles when they are asked and keeps as many as two rows have, those asked last; fewer,
+// Decodes tiles when they are needed and keeps as many as two rows have, those used last; fewer,
 // but four, if they have more vertices together than `kept_vertices`. The pack must outlive it.
 SampledSurface sampled(const PackFile& pack, BadTiles bad_tiles = BadTiles::kThrow,
                        uint64_t kept_vertices = kMaxVertices);

@@ -23,7 +23,7 @@
 
 namespace microtin::fit {
 
-// Refinement, then decimation, then cheaper heights, as long as asked for.
+// Refinement, then decimation, then cheaper heights, as long as requested.
 
 namespace {
 

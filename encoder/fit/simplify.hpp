@@ -36,8 +36,8 @@ struct SimplifyOptions {
 };
 
 // Without options every sample becomes a vertex. With one of them, as few as greedy insertion of
-// the worst sample finds: until the bound holds or, if none is asked for, until the error is 0 or
-// max_vertices is reached. If a bound alone is asked for, vertices are then removed and moved and
+// the worst sample finds: until the bound holds or, if none is requested, until the error is 0 or
+// max_vertices is reached. If a bound alone is requested, vertices are then removed and moved and
 // their heights chosen, off the source if need be, so that they are as few and as cheap to code as
 // `search` has time to find.
 //

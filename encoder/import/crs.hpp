@@ -57,7 +57,7 @@ const VerticalCode* begin_of_verticals();
 const VerticalCode* end_of_verticals();
 
 // Known here: WGS 84 (4326), ETRS89 (4258), NAD83 (4269), UTM on these, web Mercator (3857), the
-// heights in use, all heights in feet and all depths. Others are asked of PROJ in builds with GDAL.
+// heights in use, all heights in feet and all depths. Others come from PROJ in builds with GDAL.
 // Nothing if the code is not known; throws Error if PROJ knows that there is none, or one of
 // another kind.
 std::optional<CodedSystem> system_of_code(uint32_t code);

@@ -52,7 +52,7 @@ struct FeatureFile {
 using FileTexts = std::map<std::string, std::string>;
 
 // What was read of files, by their names. A pipe can be read once only, so that the features of a
-// file whose system was looked at are kept until they are asked for.
+// file whose system was looked at are kept until they are requested.
 struct ReadFeatures {
   struct File {
     StatedSystem stated;

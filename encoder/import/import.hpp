@@ -73,7 +73,7 @@ std::unique_ptr<RasterReader> open_asc(const std::string& name, std::unique_ptr<
 PointCloud import_points(const std::string& name, const std::string& text);
 
 // Points of LAS 1.0 to 1.4, formats 0 to 10, with codes and units from GeoTIFF keys or well-known
-// text, also compressed as LAZ: formats 0 to 3, and 6 to 10 in layers. Takes the classes asked for;
+// text, also compressed as LAZ: formats 0 to 3, and 6 to 10 in layers. Takes the classes requested;
 // if none are, the ground (2) or, in a file without, all but noise (7 and 18). Points flagged as
 // withheld are never taken.
 PointCloud import_las(const std::string& name, const std::string& bytes,

@@ -40,7 +40,7 @@ std::string turned_text(const std::vector<bool>& turned, double east);
 
 // One terrain from several files.
 
-// One raster, or one cloud, of at least one. Rasters are read when the whole is asked; their posts
+// One raster, or one cloud, of at least one. Rasters are read when the whole is; their posts
 // must lie on one grid, in the same units and systems; where several have a height the first one's
 // counts, and where none has it is void. `selection` of the whole says how many files overlap and
 // by how much they differ at most, and where; so of points at places that files share. Points all

@@ -194,8 +194,8 @@ std::vector<std::string> parts_of(const std::string& path, const Preparation& pr
 
 template <class AnySource>
 AnySource settled(const std::string& path, AnySource source, const Preparation& preparation) {
-  if (!preparation.asked) return source;
-  with_file_context(path, [&] { settle_source(source, *preparation.asked); });
+  if (!preparation.requested) return source;
+  with_file_context(path, [&] { settle_source(source, *preparation.requested); });
   return source;
 }
 

@@ -53,7 +53,7 @@ struct Preparation {
   std::shared_ptr<ReadFeatures> features = std::make_shared<ReadFeatures>();  // of such files
   std::optional<Decimal> max_error;  // the bound where that says nothing
   // Settled with each file's; nothing: units and systems are left alone, where no heights are used.
-  std::optional<Reference> asked = Reference{};
+  std::optional<Reference> requested = Reference{};
 };
 
 // How the files of features are read.

@@ -51,7 +51,8 @@ std::string factor_text(const DecimalFactor& factor) {
 
 class Settlement {
  public:
-  Settlement(const Reference& file, const Reference& asked) : file_(file), asked_(asked) {
+  Settlement(const Reference& file, const Reference& requested)
+      : file_(file), requested_(requested) {
     all_.warnings = file.warnings;
     all_.wkt = file.wkt;
     all_.notes = file.notes;
@@ -68,16 +69,17 @@ class Settlement {
   void warn(const std::string& text) { all_.warnings.push_back(text); }
 
   void settle_places() {
-    const System asked = complete(false, horizontal_of(asked_)), file = horizontal_of(file_);
+    const System requested = complete(false, horizontal_of(requested_)),
+                 file = horizontal_of(file_);
     if (!file_.unread.empty()) {
-      if (asked.code == 0 && !asked.unit.is_stated()) throw Error(file_.unread);
+      if (requested.code == 0 && !requested.unit.is_stated()) throw Error(file_.unread);
       warn("the options override the system of the file, which is not read: " + file_.unread);
     }
-    if (asked.code != 0) all_.wkt.clear();
-    all_.horizontal_epsg = chosen(asked.code, file.code);
-    StatedUnit unit = chosen("x and y", asked.unit, file.unit);
+    if (requested.code != 0) all_.wkt.clear();
+    all_.horizontal_epsg = chosen(requested.code, file.code);
+    StatedUnit unit = chosen("x and y", requested.unit, file.unit);
     if (!unit.other.empty()) {
-      const bool is_own = !asked.unit.is_stated();
+      const bool is_own = !requested.unit.is_stated();
       if (is_own && (all_.horizontal_epsg != 0 || !all_.wkt.empty())) {
         throw Error("the unit of x and y is " + unit.other +
                     ", and their system has no other: bring them into a system of metres or feet " +
@@ -93,28 +95,29 @@ class Settlement {
     all_.horizontal_unit = unit.unit;
   }
 
-  // One unit that is asked for is that of heights, too, unless codes say another.
-  System asked_heights() const {
-    const System asked = vertical_of(asked_), places = horizontal_of(asked_);
+  // One unit that is requested is that of heights, too, unless codes say another.
+  System requested_heights() const {
+    const System requested = vertical_of(requested_), places = horizontal_of(requested_);
     const bool is_length = places.unit.is_stated() && places.unit.unit != Unit::kDegree;
-    return asked_.one_unit && is_length && asked.code == 0 ? System{0, places.unit} : asked;
+    return requested_.one_unit && is_length && requested.code == 0 ? System{0, places.unit}
+                                                                   : requested;
   }
 
   void settle_heights() {
-    const System asked = complete(true, asked_heights()), file = vertical_of(file_);
-    keeps_no_vertical_part_ = asked.code != 0 || asked.unit.is_stated();
-    all_.vertical_epsg = chosen(asked.code, file.code);
-    StatedUnit unit = chosen("heights", asked.unit, file.unit);
+    const System requested = complete(true, requested_heights()), file = vertical_of(file_);
+    keeps_no_vertical_part_ = requested.code != 0 || requested.unit.is_stated();
+    all_.vertical_epsg = chosen(requested.code, file.code);
+    StatedUnit unit = chosen("heights", requested.unit, file.unit);
     if (!unit.other.empty()) {
       unit.unit = converted("heights", unit.other, conversion_.z);
       forget_system_of_other_unit(unit.unit);
       keeps_no_vertical_part_ = true;
     }
     all_.vertical_unit = unit.unit;
-    settle_direction(asked.code);
+    settle_direction(requested.code);
   }
 
-  // What the codes and units that are asked for say together.
+  // What the codes and units that are requested say together.
   System complete(bool is_vertical, System wanted) {
     if (wanted.code == 0) return wanted;
     const std::optional<CodedSystem> system = system_of_code(wanted.code);
@@ -137,21 +140,21 @@ class Settlement {
   }
 
   // Warns which of the file's codes and units give way.
-  uint32_t chosen(uint32_t asked, uint32_t file) {
-    if (asked == 0) return file;
-    if (file != 0 && file != asked) {
-      warn(code_text(asked) + " overrides the file's " + code_text(file));
+  uint32_t chosen(uint32_t requested, uint32_t file) {
+    if (requested == 0) return file;
+    if (file != 0 && file != requested) {
+      warn(code_text(requested) + " overrides the file's " + code_text(file));
     }
-    return asked;
+    return requested;
   }
 
-  StatedUnit chosen(const char* what, const StatedUnit& asked, const StatedUnit& file) {
-    if (!asked.is_stated()) return file;
-    if (file.is_stated() && !is_same(asked, file)) {
-      warn(std::string(what) + " are taken as " + text_of(asked) + "; the file says " +
+  StatedUnit chosen(const char* what, const StatedUnit& requested, const StatedUnit& file) {
+    if (!requested.is_stated()) return file;
+    if (file.is_stated() && !is_same(requested, file)) {
+      warn(std::string(what) + " are taken as " + text_of(requested) + "; the file says " +
            text_of(file));
     }
-    return asked;
+    return requested;
   }
 
   // The unit that numbers are in after it.
@@ -180,13 +183,13 @@ class Settlement {
     all_.vertical_epsg = 0;
   }
 
-  // Codes that are asked for decide the direction, too.
+  // Codes that are requested decide the direction, too.
   void settle_direction(uint32_t asked_code) {
     const uint32_t code = all_.vertical_epsg;
     const std::optional<CodedSystem> system = system_of_file_code(code);
     const bool is_coded_depth = system && system->is_depth;
     const bool stated = is_coded_depth || (asked_code == 0 && file_.depths);
-    if (stated && !asked_.depths) {
+    if (stated && !requested_.depths) {
       throw Error((is_coded_depth ? "heights are depths (" + code_text(code) + ")"
                                   : std::string("heights are depths by the file's system")) +
                   ", which grow downwards: negate them with " + parameter("depths") +
@@ -195,7 +198,7 @@ class Settlement {
     }
     if (!stated && file_.depths)
       warn("heights are taken as they are, although the file says depths");
-    if (!asked_.depths) return;
+    if (!requested_.depths) return;
     conversion_.z.numerator = -conversion_.z.numerator;
     keeps_no_vertical_part_ = true;
     warn(depths_warning(stated, is_coded_depth, system));
@@ -215,7 +218,7 @@ class Settlement {
     return text;
   }
 
-  const Reference &file_, &asked_;
+  const Reference &file_, &requested_;
   Reference all_;
   Conversion conversion_;
   bool keeps_no_vertical_part_ = false;  // of well-known text, as it says something else
@@ -223,8 +226,8 @@ class Settlement {
 
 }  // namespace
 
-SettledReference settle(const Reference& file, const Reference& asked) {
-  return Settlement(file, asked).settle();
+SettledReference settle(const Reference& file, const Reference& requested) {
+  return Settlement(file, requested).settle();
 }
 
 Reference completed(Reference reference) {
@@ -262,7 +265,7 @@ void expect_same_horizontal_system(const Reference& file, const Reference& terra
   }
 }
 
-bool read_units(const std::string& text, Reference& asked) {
+bool read_units(const std::string& text, Reference& requested) {
   const size_t colon = text.find(':');
   const auto is_known = [](const StatedUnit& unit) {
     return unit.unit != Unit::kUnknown || length_named(unit.other) != nullptr;
@@ -270,13 +273,13 @@ bool read_units(const std::string& text, Reference& asked) {
   if (colon != 0) {
     const StatedUnit unit = unit_named(text.substr(0, colon));
     if (!is_known(unit)) return false;
-    state_horizontal_unit(unit, asked);
+    state_horizontal_unit(unit, requested);
   }
-  asked.one_unit = colon == std::string::npos;
-  if (asked.one_unit) return true;
+  requested.one_unit = colon == std::string::npos;
+  if (requested.one_unit) return true;
   const StatedUnit unit = unit_named(text.substr(colon + 1));
   if (!is_known(unit) || unit.unit == Unit::kDegree) return false;
-  state_vertical_unit(unit, asked);
+  state_vertical_unit(unit, requested);
   return true;
 }
 
@@ -406,19 +409,19 @@ void convert(Source& source, const SettledReference& settled) {
       source);
 }
 
-void settle_source(Source& source, const Reference& asked) {
-  convert(source, settle(terrain::reference_of(source), asked));
+void settle_source(Source& source, const Reference& requested) {
+  convert(source, settle(terrain::reference_of(source), requested));
 }
 
-void settle_source(OpenSource& source, const Reference& asked) {
+void settle_source(OpenSource& source, const Reference& requested) {
   auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
   if (raster != nullptr) {
-    SettledReference settled = settle((*raster)->frame().reference, asked);
+    SettledReference settled = settle((*raster)->frame().reference, requested);
     *raster = std::make_unique<ConvertedRaster>(std::move(*raster), std::move(settled));
     return;
   }
   Source cloud = std::move(std::get<PointCloud>(source));
-  settle_source(cloud, asked);
+  settle_source(cloud, requested);
   source = std::move(std::get<PointCloud>(cloud));
 }
 

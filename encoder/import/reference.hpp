@@ -25,12 +25,12 @@ struct SettledReference {
   Conversion conversion;
 };
 
-// What is asked for, where it says something, comes before what the file says; warnings say what
-// gave way, and what is converted. Codes that are asked for bring their units. `asked.depths` turns
-// heights that grow downwards into heights. Throws Error if what is asked for contradicts itself,
-// and if the file's system is not read, its heights are depths, or a unit cannot be converted
-// exactly, and nothing that is asked for decides.
-SettledReference settle(const Reference& file, const Reference& asked);
+// What is requested, where it says something, comes before what the file says; warnings say what
+// gave way, and what is converted. Codes that are requested bring their units. `requested.depths`
+// turns heights that grow downwards into heights. Throws Error if what is requested contradicts
+// itself, and if the file's system is not read, its heights are depths, or a unit cannot be
+// converted exactly, and nothing that is requested decides.
+SettledReference settle(const Reference& file, const Reference& requested);
 
 // Heights of unknown unit have that of x and y if that is a length. Remarks tell what is guessed or
 // not known. Throws Error if x and y are degrees and nobody knows the unit of heights.
@@ -42,7 +42,7 @@ void expect_same_horizontal_system(const Reference& file, const Reference& terra
 
 // "metre", of heights, too; or "degree:foot", horizontal before vertical; ":fathom" is the vertical
 // unit alone. False if it is none of these, or degrees are vertical.
-bool read_units(const std::string& text, Reference& asked);
+bool read_units(const std::string& text, Reference& requested);
 
 // Takes a unit as a file states it. Nothing changes if none is stated.
 void state_horizontal_unit(const StatedUnit& unit, Reference& reference);
@@ -60,10 +60,10 @@ bool is_plain(const Conversion& conversion);
 // many decimals.
 void convert(Source& source, const SettledReference& settled);
 
-// Settles what a file says and what is asked for, and converts the file's numbers: of a raster that
+// Settles what a file says and what is requested, and converts the file's numbers: of a raster that
 // is read in pieces when a piece is read. Throws Error as settle and convert do.
-void settle_source(Source& source, const Reference& asked);
-void settle_source(OpenSource& source, const Reference& asked);
+void settle_source(Source& source, const Reference& requested);
+void settle_source(OpenSource& source, const Reference& requested);
 
 }  // namespace microtin::importing
 

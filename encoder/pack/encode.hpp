@@ -70,7 +70,7 @@ using TakeTile = std::function<void(uint32_t tile, EncodedTile&&)>;
 // encode_tile does, and TileTooLarge.
 void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take);
 
-// Encodes all tiles. If one is too large and no size was asked for, begins again with smaller ones:
+// Encodes all tiles. If one is too large and no size was requested, begins again with smaller ones:
 // calls begin(plan) before that, and first of all, which returns the first tile to encode.
 // `tile_size`, if not 0, is tried first.
 void encode_pack(const RasterReader& raster, const PackOptions& options, uint32_t tile_size,
@@ -96,7 +96,7 @@ double counting_part(const Raster& frame, const PackOptions& options);
 // nothing smaller.
 uint32_t smaller_tile_size(const TileGrid& grid, uint32_t max_vertices, uint32_t vertices);
 
-// Tiles that a device keeps: as many as meet at a corner, unless more are asked for.
+// Tiles that a device keeps: as many as meet at a corner, unless more are requested.
 constexpr uint32_t kKeptTiles = 4;
 
 // Vertices of a tile for which a device with this many bytes of RAM decodes one tile and keeps some

@@ -68,7 +68,7 @@ class PackFile {
   enum class Index : uint8_t { kNow, kLater };
   PackFile(std::unique_ptr<ByteSource> bytes, Index index);
 
-  // Reads header and index; streams when they are asked for. Throws Error if they are damaged or
+  // Reads header and index; streams when they are requested. Throws Error if they are damaged or
   // break a rule.
   explicit PackFile(std::unique_ptr<ByteSource> bytes) : PackFile(std::move(bytes), Index::kNow) {}
   explicit PackFile(std::vector<uint8_t> bytes) : PackFile(bytes_in_memory(std::move(bytes))) {}

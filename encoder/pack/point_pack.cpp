@@ -58,7 +58,7 @@ PointCloud pilot_of(const PointCloud& cloud) {
   return part_of(cloud, points);
 }
 
-// The cloud on a lattice with the z step that suits its middle best, unless one was asked for.
+// The cloud on a lattice with the z step that suits its middle best, unless one was requested.
 PointSurvey survey_of(const PointCloud& cloud, LatticeOptions& lattice, SimplifyOptions simplify) {
   if (simplify.bounded && !lattice.z_step) {
     try {
@@ -223,7 +223,7 @@ PointPack encode_point_pack(const PointCloud& cloud, const PackOptions& options,
   return pack;
 }
 
-// Compares a pack with points: each is asked of the tiles that hold it.
+// Compares a pack with points: the tiles that hold a point are queried.
 
 namespace {
 
@@ -260,7 +260,7 @@ Verification verify(const PackFile& pack, const PointCloud& cloud,
       if (answers(tile->mesh(), box, places[point], &hint)) covered[i].push_back(point);
     }
   });
-  for (const VisitLog& log : visits) log.tell(visit);
+  for (const VisitLog& log : visits) log.replay(visit);
   std::vector<bool> is_covered(places.size());
   for (const auto& numbers : covered) {
     for (const uint32_t point : numbers) is_covered[point] = true;

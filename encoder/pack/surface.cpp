@@ -187,7 +187,7 @@ Verification verify(const PackFile& pack, const RasterReader& raster,
       uncovered.add(tile.uncovered);
       posts += tile.posts;
       voids += tile.voids;
-      if (visit) tile.visits.tell(visit);
+      if (visit) tile.visits.replay(visit);
     }
     uncovered.forget((row + 1) * grid.height);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One tile of a raster: its survey, its stream, and what it keeps of what was asked for.
+// One tile of a raster: its survey, its stream, and what it keeps of what was requested.
 #ifndef MICROTIN_ENCODER_PACK_TILE_HPP
 #define MICROTIN_ENCODER_PACK_TILE_HPP
 

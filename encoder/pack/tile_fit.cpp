@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Surveys a tile, and narrows its limits until its surface keeps what was asked for.
+// Surveys a tile, and narrows its limits until its surface keeps what was requested.
 #include "encoder/pack/tile_fit.hpp"
 
 #include <algorithm>

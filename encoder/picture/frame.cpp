@@ -276,7 +276,7 @@ void draw_scale_bar(Drawing& drawing, Spot corner, double most, double unit, dou
   constexpr int kParts = 4;
   const double length = round_length(most * ground);
   const bool in_thousands = ground_unit == "m" && length >= 1000;
-  const double told = in_thousands ? length / 1000 : length;
+  const double shown = in_thousands ? length / 1000 : length;
   const PixelBox box{corner.x, corner.y + (kBarHeight - 4) * unit, length / ground, 4 * unit};
   for (int part = 0; part < kParts; ++part) {
     drawing.fill({box.left + part * box.width / kParts, box.top, box.width / kParts, box.height},
@@ -284,7 +284,7 @@ void draw_scale_bar(Drawing& drawing, Spot corner, double most, double unit, dou
   }
   drawing.outline(box, std::max(1.0, 0.6 * unit), kInk);
   const std::string text =
-      grouped(told, decimals_for(told)) + " " + (in_thousands ? "k" : "") + ground_unit;
+      grouped(shown, decimals_for(shown)) + " " + (in_thousands ? "k" : "") + ground_unit;
   draw_text(drawing, "0", {corner.x, corner.y + kLabelLine * unit}, unit, kInk);
   const double end =
       std::max(box.left + box.width - unit * text_width(text) / 2, corner.x + 12 * unit);

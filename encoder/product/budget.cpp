@@ -106,7 +106,7 @@ class Budget {
  public:
   Budget(const Source& source, const EncodeOptions& options, const Progress& progress)
       : source_(source),
-        asked_(options),
+        requested_(options),
         options_(options),
         costs_(costs_of(options.search)),
         progress_(progress),
@@ -148,14 +148,14 @@ class Budget {
     if (const std::optional<BoundSpan>& span = encoded.verification.bounds) {
       return rounded(real(span->ratio) * real(*encoded.bound)).value_or(*encoded.bound);
     }
-    return error_where_bound(encoded, asked_.lattice.bound_at);
+    return error_where_bound(encoded, requested_.lattice.bound_at);
   }
   bool is_too_low(const EncodedStream& encoded) const {
-    if (!asked_.lattice.never_below) return false;
-    if (asked_.lattice.bound_at == BoundScope::kEverywhere) {
+    if (!requested_.lattice.never_below) return false;
+    if (requested_.lattice.bound_at == BoundScope::kEverywhere) {
       return encoded.everywhere && encoded.everywhere->below.mantissa != 0;
     }
-    return asked_.lattice.bound_at == BoundScope::kTruePlaces && encoded.true_places &&
+    return requested_.lattice.bound_at == BoundScope::kTruePlaces && encoded.true_places &&
            encoded.true_places->max_below.mantissa != 0;
   }
 
@@ -209,11 +209,11 @@ class Budget {
       guess_ = real(*bounds_of(source_).unscaled);
       return false;
     }
-    if (!asked_.lattice.breaklines.empty()) {  // which need a bound
+    if (!requested_.lattice.breaklines.empty()) {  // which need a bound
       guess_ = real(largest_) / 10;
       return false;
     }
-    EncodeOptions options = asked_;
+    EncodeOptions options = requested_;
     options.max_bytes = 0;
     options.lattice.never_below = false;
     if (!of_vertices_) {
@@ -394,7 +394,7 @@ class Budget {
   }
 
   [[noreturn]] void fail() {
-    EncodeOptions options = asked_;
+    EncodeOptions options = requested_;
     options.max_bytes = 0;
     options.lattice.max_error = largest_;
     // Throws by itself if another limit is the reason.
@@ -405,7 +405,7 @@ class Budget {
   }
 
   const Source& source_;
-  const EncodeOptions& asked_;
+  const EncodeOptions& requested_;
   EncodeOptions options_;  // of a trial
   Costs costs_;
   Progress progress_;

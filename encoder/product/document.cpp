@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Asks a stream or a pack, so that nobody else needs to know which of them it is.
+// Reads a stream or a pack, so that nobody else needs to know which of them it is.
 #include "encoder/product/document.hpp"
 
 #include <memory>

@@ -89,7 +89,7 @@ void expect_water_level(const std::string& path, const std::optional<Decimal>& n
 void expect_same_system(const Metadata& file, const Reference& terrain);
 
 // A terrain that a document is compared with: read in pieces for a pack, whole for a stream. Of a
-// LAS or LAZ file the classes are taken that the document notes, if none are asked for; of points
+// LAS or LAZ file the classes are taken that the document notes, if none are requested; of points
 // that share a place those that stand for all by the document's rule.
 class Original {
  public:
@@ -103,7 +103,7 @@ class Original {
   // Throws Error if the terrain was given another water level than the document notes.
   Promise promise() const;
 
-  // Asks the document at every post or point. Throws Error as for a mesh or a pack.
+  // Queries the document at every post or point. Throws Error as for a mesh or a pack.
   Verification compare(const std::optional<Decimal>& bound, const Progress& progress,
                        const PostVisitor& visit) const;
 

@@ -130,9 +130,9 @@ uint64_t adapter_ram(const PackReport& pack) {
   return pack_ram(slot_capacity(pack), pack.compact_bytes, kAdapterTiles) + kAdapterBytes;
 }
 
-PackContent encode_pack(const RasterReader& raster, const EncodeOptions& asked,
+PackContent encode_pack(const RasterReader& raster, const EncodeOptions& requested,
                         StreamSpool& streams, const Progress& progress) {
-  const EncodeOptions options = mapped(asked, raster.frame().bounds);
+  const EncodeOptions options = mapped(requested, raster.frame().bounds);
   PackContent pack;
   const Metadata notes = metadata_of(options, raster.frame());
   std::optional<TileLog> log;
@@ -234,8 +234,8 @@ PackAttempt attempt_twice(const PointCloud& cloud, const EncodeOptions& options)
 
 }  // namespace
 
-EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& asked) {
-  const EncodeOptions options = mapped(asked, cloud.bounds);
+EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& requested) {
+  const EncodeOptions options = mapped(requested, cloud.bounds);
   const Placement lattice = choose_pack_lattice(cloud, options.lattice).placement;
   const std::optional<PointCloud> thin = thinned(cloud, lattice, options.lattice.duplicates);
   const PointCloud& kept = thin ? *thin : cloud;
@@ -252,9 +252,9 @@ EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& asked) {
           kept.points.size(), made.merged + dropped,   true_places};
 }
 
-ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& asked, TileRange tiles,
-                         OutputFile& out, const Progress& progress) {
-  const EncodeOptions options = mapped(asked, raster.frame().bounds);
+ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& requested,
+                         TileRange tiles, OutputFile& out, const Progress& progress) {
+  const EncodeOptions options = mapped(requested, raster.frame().bounds);
   const Metadata notes = metadata_of(options, raster.frame());
   const PackPlan plan = plan_pack(raster, raster_options(options, progress));
   ShardReport report{existing(tiles, plan.tiled.grid), all_tiles(plan.tiled.grid), 0};

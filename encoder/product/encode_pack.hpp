@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A terrain as a pack of tiles, each of which is known to keep what was asked for.
+// A terrain as a pack of tiles, each of which is known to keep what was requested.
 #ifndef MICROTIN_ENCODER_PRODUCT_ENCODE_PACK_HPP
 #define MICROTIN_ENCODER_PRODUCT_ENCODE_PACK_HPP
 
@@ -39,8 +39,8 @@ uint32_t slot_capacity(const PackReport& pack);
 uint64_t adapter_ram(const PackReport& pack);
 
 // Chooses, encodes, decodes and compares tile by tile, as encode_stream does for all; the streams
-// wait in the spool until the index is known. Throws Error if what is asked for cannot be had.
-PackContent encode_pack(const RasterReader& raster, const EncodeOptions& asked,
+// wait in the spool until the index is known. Throws Error if what is requested cannot be had.
+PackContent encode_pack(const RasterReader& raster, const EncodeOptions& requested,
                         StreamSpool& streams, const Progress& progress);
 
 // The result of encoding points as a pack.
@@ -55,7 +55,7 @@ struct EncodedPoints {
 
 // Points that the lattice moves are fitted within less than the bound where they truly lie, if it
 // is missed there. Throws Error also if that is not enough: without an --xy-step a pack moves none.
-EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& asked);
+EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& requested);
 
 // Writes a shard with some of the tiles that the pack of a raster has. Throws Error also if there
 // is no first one.
@@ -64,8 +64,8 @@ struct ShardReport {
   uint64_t vertices;
 };
 
-ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& asked, TileRange tiles,
-                         OutputFile& out, const Progress& progress);
+ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& requested,
+                         TileRange tiles, OutputFile& out, const Progress& progress);
 
 // How this many shards are to be encoded, so that together they are what a single run makes.
 struct ShardPlan {

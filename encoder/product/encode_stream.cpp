@@ -350,9 +350,9 @@ EncodedStream measured(const Source& source, const EncodeOptions& options, Appro
   return assess(source, options, lessons, std::move(found), Miss::kWidens).encoded;
 }
 
-EncodedStream encode_stream(const Source& source, const EncodeOptions& asked,
+EncodedStream encode_stream(const Source& source, const EncodeOptions& requested,
                             const Progress& progress) {
-  const EncodeOptions options = mapped(asked, bounds_of(source));
+  const EncodeOptions options = mapped(requested, bounds_of(source));
   if (options.tile_size != 0) {
     throw Error(parameter("tile_size") + " is for packs, and this is a stream; leave it out");
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A terrain as one stream that is known to keep what was asked for.
+// A terrain as one stream that is known to keep what was requested.
 #ifndef MICROTIN_ENCODER_PRODUCT_ENCODE_STREAM_HPP
 #define MICROTIN_ENCODER_PRODUCT_ENCODE_STREAM_HPP
 
@@ -24,7 +24,7 @@ struct Breaklines {
 
 struct EncodedStream {
   Laid laid;
-  std::optional<Decimal> bound;        // asked for, or found: the scale of posts' own bounds
+  std::optional<Decimal> bound;        // requested, or found: the scale of posts' own bounds
   std::optional<StatedBounds> bounds;  // if posts have bounds of their own
   std::vector<uint8_t> stream;
   uint32_t vertices;
@@ -41,8 +41,8 @@ struct EncodedStream {
 // each attempt limits become narrower where it is missed. With a limit of bytes or vertices, that
 // is the smallest bound found whose stream keeps the limit, in about the time of four encodings, or
 // of more where the lattice moves points so far that bounds must be tried at their true places.
-// Throws Error if what is asked for cannot be had.
-EncodedStream encode_stream(const Source& source, const EncodeOptions& asked,
+// Throws Error if what is requested cannot be had.
+EncodedStream encode_stream(const Source& source, const EncodeOptions& requested,
                             const Progress& progress);
 
 // The largest error where the bound is to hold.

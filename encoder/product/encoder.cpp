@@ -170,7 +170,7 @@ terrain::Source read_files(const SourceTerrain::Content& content, const Options&
   return importing::prepared_terrain(content.files[0], preparation, own_map(content, preparation));
 }
 
-// A terrain in the units that are asked for, shaped by files: a copy only where that changes it.
+// A terrain in the units that are requested, shaped by files: a copy only where that changes it.
 class SettledTerrain {
  public:
   SettledTerrain(const SourceTerrain::Content& content, const Options& options)
@@ -182,7 +182,7 @@ class SettledTerrain {
     }
     const importing::Preparation preparation = preparation_of(content, options);
     const importing::SettledReference settled =
-        importing::settle(terrain::reference_of(*source_), *preparation.asked);
+        importing::settle(terrain::reference_of(*source_), *preparation.requested);
     reference_ = settled.reference;
     const bool is_plain = importing::is_plain(settled.conversion);
     const bool has_files = !options.error_map.empty() || !options.area.empty() ||

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Takes apart what is asked for.
+// Takes apart what is requested.
 #include "encoder/product/options.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is asked of an encoding, and what follows from that for its parts.
+// What an encoding is to keep, and what follows from that for its parts.
 #ifndef MICROTIN_ENCODER_PRODUCT_OPTIONS_HPP
 #define MICROTIN_ENCODER_PRODUCT_OPTIONS_HPP
 

@@ -25,8 +25,8 @@ struct Damaged : Error {
   using Error::Error;
 };
 
-// A pack as a device reads it, tile by tile when they are asked. Its memory is that of usual tiles,
-// and grows when a larger one is asked whose stream says so.
+// A pack as a device reads it, tile by tile as they are needed. Its memory is that of usual tiles,
+// and grows when a larger one is needed whose stream says so.
 class AskedPack {
  public:
   // Throws Damaged, or Error if the header is of another version.

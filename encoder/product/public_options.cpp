@@ -92,14 +92,14 @@ SourceNotes notes_of(const encoder::Options& options) {
           parse_source_accuracy(options.source_accuracy)};
 }
 
-// The units and systems that are asked for.
-Reference asked_of(const encoder::Options& options) {
-  Reference asked;
-  asked.horizontal_epsg = options.horizontal_epsg;
-  asked.vertical_epsg = options.vertical_epsg;
-  asked.depths = options.depths;
-  if (!options.units.empty()) read_units(options.units, asked);
-  return asked;
+// The units and systems that are requested.
+Reference requested_of(const encoder::Options& options) {
+  Reference requested;
+  requested.horizontal_epsg = options.horizontal_epsg;
+  requested.vertical_epsg = options.vertical_epsg;
+  requested.depths = options.depths;
+  if (!options.units.empty()) read_units(options.units, requested);
+  return requested;
 }
 
 }  // namespace
@@ -149,7 +149,7 @@ Preparation preparation_of(const encoder::Options& options, Preparation preparat
   preparation.route_edge_error = decimal_of(options.route_edge_error);
   preparation.obstacles = options.obstacles;
   preparation.breaklines = options.breaklines;
-  preparation.asked = asked_of(options);
+  preparation.requested = requested_of(options);
   return preparation;
 }
 
@@ -245,8 +245,8 @@ Table surface_options() {
 
 Table reference_options() {
   const auto is_unit = [](const std::string& value) {
-    Reference asked;
-    return read_units(value, asked);
+    Reference requested;
+    return read_units(value, requested);
   };
   return {
       text("units", &Options::units, is_unit,

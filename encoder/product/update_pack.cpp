@@ -63,7 +63,7 @@ LatticeOptions options_of(const PackFile& pack, std::optional<BoundScope> bound_
   return options;
 }
 
-// The coding of the first tile that can be read; of none the one that is asked for.
+// The coding of the first tile that can be read; of none the one that is requested.
 Effort effort_of(const PackFile& pack, Effort effort) {
   for (uint32_t tile = 0; tile < pack.tiles(); ++tile) {
     try {
@@ -77,15 +77,15 @@ Effort effort_of(const PackFile& pack, Effort effort) {
   return effort;
 }
 
-PackOptions pack_options(const PackFile& old, const EncodeOptions& asked,
+PackOptions pack_options(const PackFile& old, const EncodeOptions& requested,
                          std::optional<BoundScope> bound_at) {
-  refuse_options_of_streams(asked);
-  EncodeOptions options = asked;
-  options.lattice = options_of(old, bound_at, !asked.lattice.breaklines.empty());
-  options.effort = effort_of(old, asked.effort);
+  refuse_options_of_streams(requested);
+  EncodeOptions options = requested;
+  options.lattice = options_of(old, bound_at, !requested.lattice.breaklines.empty());
+  options.effort = effort_of(old, requested.effort);
   const uint32_t vertices =
       std::max(kFewestTileVertices,
-               asked.tile_vertices != 0 ? asked.tile_vertices : old.header().most_vertices);
+               requested.tile_vertices != 0 ? requested.tile_vertices : old.header().most_vertices);
   return {options.lattice, simplify_options(options, 1, {}), vertices, old.grid().width, vertices};
 }
 

@@ -27,7 +27,7 @@ struct Opened {
   std::string system;
 };
 
-// Open meshes by their numbers; QGIS asks from several threads.
+// Open meshes by their numbers; QGIS calls from several threads.
 class Meshes {
  public:
   int add(Opened opened) {

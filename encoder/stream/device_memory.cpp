@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Asks the decoder's macros, and the shipped library for compact forms.
+// Takes it from the decoder's macros, and from the shipped library for compact forms.
 #include "encoder/stream/device_memory.hpp"
 
 #include <algorithm>

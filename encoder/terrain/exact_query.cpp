@@ -101,7 +101,7 @@ int32_t nearest_256th(int64_t whole, Wide part, Wide parts) {
 
 }  // namespace
 
-// Neighbours are asked one after the other: the triangle of the last often is that of the next.
+// Neighbours are queried one after the other: the triangle of the last often is that of the next.
 // Of edges beyond which the place lies any may be crossed: see decoder/walk.hpp.
 ExactAnswer exact_answer(const microtin_mesh* mesh, const RealPlace& place, uint32_t step_limit,
                          uint32_t* hint) {

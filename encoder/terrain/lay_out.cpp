@@ -204,7 +204,7 @@ class Sampler {
     }
   }
 
-  // A step that was not asked for is the finest that fits: then the bound must be wider.
+  // A step that was not requested is the finest that fits: then the bound must be wider.
   std::string remedy() const {
     const Wide narrowest = std::max<Wide>(narrowest_, 1);
     if (is_step_asked_) {

@@ -55,7 +55,7 @@ inline BoundSide side_of(const std::optional<Decimal>& bound, bool never_below) 
 
 // Heights in the source's unit.
 struct Accuracy {
-  std::optional<Decimal> bound;  // asked for
+  std::optional<Decimal> bound;  // requested
   Decimal max_error;             // measured at every sample of the source
   Decimal rms_error;
   Decimal mean_error;  // above 0: the terrain is too high

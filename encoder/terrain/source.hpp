@@ -28,7 +28,7 @@ constexpr bool is_height(int64_t number) {
   return number > kNoPost;
 }
 
-// What the file format implies, or what is asked for instead.
+// What the file format implies, or what is requested instead.
 struct Reference {
   Unit horizontal_unit = Unit::kUnknown;
   Unit vertical_unit = Unit::kUnknown;
@@ -37,7 +37,7 @@ struct Reference {
   std::string wkt = {};  // of the horizontal system, where it has no code
   // Names of units that streams do not have, where they are stated: they are converted, or refused.
   std::string horizontal_other = {}, vertical_other = {};
-  bool one_unit = false;    // asked for: heights have the unit of places, if that is a length
+  bool one_unit = false;    // requested: heights have the unit of places, if that is a length
   bool depths = false;      // heights grow downwards
   std::string unread = {};  // why the file that says its system is not read; empty: it is, or none
   std::vector<std::string> warnings = {};  // sentences for people: what was overridden or converted

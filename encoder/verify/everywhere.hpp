@@ -104,7 +104,7 @@ class EverywhereBound {
   // everywhere. Throws Error if that cannot be computed exactly.
   uint64_t see(const microtin_mesh* mesh);
 
-  // Those that all surfaces seen ask for, in the order of places.
+  // Those that all surfaces seen need, in the order of places.
   std::vector<Tightening> tightenings() const;
 
   // The limits of a post that becomes a vertex: one height if a cell around it bends too much.

@@ -18,7 +18,7 @@
 namespace microtin::verifying {
 namespace {
 
-// Asks a terrain for heights at numbers of a source.
+// Queries the heights of a terrain at numbers of a source.
 class Asker {
  public:
   Asker(const microtin_mesh* mesh, const Placement& source, const Placement& lattice)
@@ -120,7 +120,7 @@ Verification verify(const microtin_mesh* mesh, const Placement& lattice, const S
     if (visit) visit(place->x, place->y, z, above);
   });
   result.uncovered = result.posts - result.covered;
-  meter.tell(bound, result);
+  meter.report(bound, result);
   kept.store_in(result);
   return result;
 }
@@ -294,7 +294,7 @@ void ErrorMeter::count(Wide billionths, bool is_below) {
   ++count_;
 }
 
-void ErrorMeter::tell(const std::optional<Decimal>& bound, Verification& found) const {
+void ErrorMeter::report(const std::optional<Decimal>& bound, Verification& found) const {
   found.max_below = make_decimal_up(below_, kMaxDecimals);
   found.max_above = make_decimal_up(above_, kMaxDecimals);
   found.max_error = make_decimal_up(std::max(below_, above_), kMaxDecimals);
@@ -314,7 +314,7 @@ Decimal ErrorMeter::root_mean_square() const {
 
 namespace {
 
-constexpr int64_t kBand = 256;  // rows that are asked from west to east together
+constexpr int64_t kBand = 256;  // rows that are queried from west to east together
 
 class TruePlaces {
  public:
@@ -348,7 +348,7 @@ class TruePlaces {
   LatticeMap x_{}, y_{};
 };
 
-// The order in which points are asked, so that neighbours follow each other.
+// The order in which points are queried, so that neighbours follow each other.
 std::vector<uint32_t> order_of(const PointCloud& cloud, const TruePlaces& places) {
   std::vector<uint32_t> order(cloud.points.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -395,7 +395,7 @@ Verification verify_at_true_places(const HeightQuery& height_at, const Placement
     }
   }
   result.uncovered = result.posts - result.covered;
-  meter.tell(bound, result);
+  meter.report(bound, result);
   kept.store_in(result);
   return result;
 }

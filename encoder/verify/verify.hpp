@@ -94,7 +94,7 @@ class ErrorMeter {
   Wide last() const { return last_; }
 
   // Writes the errors, and whether they keep the bound.
-  void tell(const std::optional<Decimal>& bound, Verification& found) const;
+  void report(const std::optional<Decimal>& bound, Verification& found) const;
 
  private:
   void count(Wide billionths, bool is_below);
@@ -120,7 +120,7 @@ class VisitLog {
     };
   }
 
-  void tell(const PostVisitor& visit) const {
+  void replay(const PostVisitor& visit) const {
     for (const Post& post : posts_) visit(post.x, post.y, post.z, post.above);
   }
 
@@ -147,7 +147,7 @@ using TruePlaceVisitor = std::function<void(const RealPlace& nearest, const Real
 bool moves_points(const Placement& lattice, const PointCloud& cloud);
 
 // As verify, but compares with the exact plane at each point's true place; where that is outside
-// the terrain, at its place on the lattice. Asks from north to south.
+// the terrain, at its place on the lattice. Queries from north to south.
 Verification verify_at_true_places(const HeightQuery& height_at, const Placement& lattice,
                                    const PointCloud& cloud, const std::optional<Decimal>& bound,
                                    const TruePlaceVisitor& visit = {});

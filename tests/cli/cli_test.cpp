@@ -382,7 +382,7 @@ TEST_CASE("cli: packs" * kSlow) {
       session.run("encode t.asc --max-error 20 --tile-vertices 60 -o t.mtp");
   REQUIRE(encoded.code == 0);
   CHECK(contains(encoded.out, "pack: "));
-  CHECK(contains(encoded.out, "asked for: at most 20"));
+  CHECK(contains(encoded.out, "requested: at most 20"));
   CHECK(session.run("verify t.mtp t.asc").code == 0);
   const Session::Result info = session.run("info t.mtp");
   CHECK(contains(info.out, "pack_version: 5"));

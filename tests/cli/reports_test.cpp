@@ -120,7 +120,7 @@ std::string report_text(const Product& product, const Made& made) {
               : z + merged +
                     "stream: {vertices} vertices, {bytes} bytes, {bits_per_vertex} bits/vertex\n";
   text +=
-      "error: at most {max_error}, rms {rms_error}, mean {mean_error} (asked for: at most "
+      "error: at most {max_error}, rms {rms_error}, mean {mean_error} (requested: at most "
       "{bound})\n";
   text += product.is_pack ? below + truly : truly + below;
   if (product.is_merged) return text.substr(text.find('\n') + 1);

@@ -238,7 +238,7 @@ TEST_CASE("autopilot: places that firmware in single precision misses are counte
         }
       }
       CAPTURE(south);
-      CHECK(file.asked == 2500);
+      CHECK(file.queried == 2500);
       CHECK(file.missed == missed);
       if (south >= -75 && south < 75) CHECK(missed == 0);
       if (south < -82 || south >= 82) CHECK(missed > 0);

@@ -188,7 +188,7 @@ TEST_CASE("exact heights: errors are measured exactly, and rounded up once") {
     ErrorMeter meter({0, 1, 100}, {0, 1, 10});  // hundredths against tenths
     Verification found;
     const double above = meter.add(number, height);
-    meter.tell(std::nullopt, found);
+    meter.report(std::nullopt, found);
     CHECK(std::abs(std::abs(above) - real(found.max_error)) < 2e-9);
     CHECK((found.max_below.mantissa != 0) == (above < 0));
     return to_string(found.max_error);
