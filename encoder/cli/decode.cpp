@@ -161,7 +161,7 @@ std::string autopilot_report(const AutopilotFile& file, uint32_t spacing) {
             " posts, which have the height of the nearest place on it\n";
   }
   return text + "the grid adds: at most " + fixed(file.largest) + " m, rms " + fixed(file.rms) +
-         " m, at " + std::to_string(file.queried) + " places of the lattice\n";
+         " m, at " + std::to_string(file.places) + " places of the lattice\n";
 }
 
 void decode_for_autopilot(const DecodeRequest& request, Autopilot autopilot) {

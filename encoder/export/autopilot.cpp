@@ -392,7 +392,7 @@ void measure(const SampledSurface& surface, const AutopilotLayout& layout, Autop
       const auto found = grid_height(layout, file.bytes, latitude, longitude);
       if (!found) continue;
       const double error = *found - real_height(z, answer.height);
-      ++file.queried;
+      ++file.places;
       squares += error * error;
       file.largest = std::max(file.largest, std::abs(error));
     }
