@@ -476,7 +476,7 @@ microtin_status go_on(microtin_pack& p, const microtin_segment& segment) {
     }
     if (p.stage != PackStage::kIdle && !wishes.in_hand && gives_way(p)) {
       give_up(p);
-      p.read.storage = Storage::kWell;  // it was not asked for this segment
+      p.read.storage = Storage::kWell;  // the tile that failed is given up
     }
     status = take_storage_result(p);
     if (status == MICROTIN_STATUS_OK) continue;

@@ -89,7 +89,7 @@ struct PackRead {
   bool wants() const { return storage == Storage::kWell && buffered < wanted; }
 };
 
-// An entry of the index that is looked at, beside the tile in hand.
+// The entry of the index of which bounds are found. The tile in hand does not need it.
 struct EntryLook {
   uint64_t next;  // where in the file its next byte is
   PackRead read;

@@ -150,8 +150,8 @@ TEST_CASE_TEMPLATE("pack bounds: a damaged entry is read again, also one that wa
     const Device device(2);
     microtin_pack_align_reads(device.pack, sector);
     byte ^= 1;
-    REQUIRE(device.load(card, at(1, 1)) ==
-            MICROTIN_STATUS_OK);  // keeps entries, if reads are aligned
+    // If reads are aligned, this keeps entries.
+    REQUIRE(device.load(card, at(1, 1)) == MICROTIN_STATUS_OK);
     CHECK(bounds_with(device, card, there, false).status == MICROTIN_STATUS_BAD_TILES);
     byte ^= 1;
     CHECK(bounds_with(device, card, there, false).status == MICROTIN_STATUS_OK);

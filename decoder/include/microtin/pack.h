@@ -89,8 +89,9 @@ typedef int32_t (*microtin_read)(void* context, uint64_t offset, uint8_t* buffer
 #define MICROTIN_READ_NOT_READY (-2147483647 - 1)
 
 /* Makes later reads suit a card with sectors of `sector` bytes, a power of two up to 32,768. No
- * read crosses a multiple of `sector`, and one read brings the index of four tiles of a row. 0, the
- * default, does neither. OK, or ARGUMENT for another number. */
+ * read crosses a multiple of `sector`, and where tiles are loaded, one read brings the index of
+ * four tiles of a row. 0, the default, does neither. OK, or ARGUMENT for another number; with
+ * MICROTIN_NO_SECTORS (config.h) for all but 0. */
 microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector);
 
 /* Loads the tiles that a segment touches, first those where it begins, without any reading of its
@@ -131,8 +132,8 @@ void microtin_pack_next_read(microtin_pack* pack, uint64_t* offset, uint8_t** bu
 
 /* Reports the result of a read, as microtin_read returns it: the number of bytes stored; 0 if the
  * pack ends there; MICROTIN_READ_NOT_READY, which changes nothing; another negative number, or more
- * than were needed, if reading failed. The next
- * microtin_pack_load acts on it. Do not call it while the read is in progress. */
+ * than were needed, if reading failed. The next call that needs the bytes acts on it. While a read
+ * is in progress, call no function that loads, checks, searches or finds bounds. */
 void microtin_pack_complete_read(microtin_pack* pack, int32_t taken);
 
 /* Reads what the pack needs next, if anything, by one call of `read`, and reports the result.

@@ -69,7 +69,7 @@ double pack_bytes(uint32_t slots, uint32_t capacity) {
 
 // Like microtin_pack_load without a step limit, but returns STEP_LIMIT as soon as the tile in
 // hand has more than `verified` vertices and all of them have passed their checks. A tile of
-// another segment gives way: its bytes are kept, and whoever waits sees the phases of this one.
+// another segment is given up. JavaScript has kept its bytes, so they are not downloaded again.
 uint32_t prepare_section(microtin_pack* pack, const microtin_segment* segment, uint32_t verified) {
   pack->tile_priority = kNoRequest;
   microtin_status status = MICROTIN_STATUS_OK;
